@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "semview/core/version.hpp"
+#include "verb.hpp"
+
+int main(int argc, char** argv) {
+  int exit_code = 0;
+  try {
+    CLI::App app{"semview: what would a camera see from here, in semantic labels?", "semview"};
+    app.set_version_flag("--version", semview::kVersion);
+    app.require_subcommand(1);
+    semview::cli::add_map_verb(app, exit_code);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      const int code = app.exit(error);
+      return code == 0 ? 0 : semview::cli::kExitUsage;
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "semview: internal error: {}\n", error.what());
+    return semview::cli::kExitFailed;
+  }
+  return exit_code;
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verb.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace semview::cli {
+
+int report(const Status& status) {
+  if (status) return 0;
+  const Error& error = status.error();
+  fmt::print(stderr, "semview: {}\n", error.message);
+  if (!error.hint.empty()) fmt::print(stderr, "  {}\n", error.hint);
+  const bool usage = error.code == ErrorCode::kInvalidArgument && error.field.starts_with("--");
+  return usage ? kExitUsage : kExitFailed;
+}
+
+Result<std::vector<double>> parse_numbers(std::string_view option,
+                                          const std::string& text,
+                                          std::size_t count) {
+  std::vector<double> numbers;
+  const char* next = text.data();
+  const char* const end = text.data() + text.size();
+  bool complete = false;
+  while (!complete) {
+    double number = 0.0;
+    const auto [stop, status] = std::from_chars(next, end, number);
+    if (status != std::errc() || !std::isfinite(number) || (stop != end && *stop != ',')) break;
+    numbers.push_back(number);
+    complete = stop == end;
+    next = complete ? end : stop + 1;
+  }
+  if (!complete || numbers.size() != count) {
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              fmt::format("{} {}: expected {} comma-separated numbers", option, text, count),
+              std::string(option)});
+  }
+  return numbers;
+}
+
+}  // namespace semview::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What every verb of `semview` shares. A verb is one file: it reads its options, calls the
+/// modules and prints; it holds no algorithm.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "semview/core/result.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace semview::cli {
+
+// Exit codes: 0 done, 1 failed (the reason is on standard error), 2 wrong usage.
+inline constexpr int kExitFailed = 1;
+inline constexpr int kExitUsage = 2;
+
+/// Adds a verb to `app`; when it has run, `exit_code` holds the program's exit code.
+void add_map_verb(CLI::App& app, int& exit_code);
+
+/// 0, or prints `semview: <message>` (and the hint) on standard error and returns `kExitFailed`,
+/// `kExitUsage` for `kInvalidArgument` with a field that starts with "--".
+int report(const Status& status);
+
+/// The comma-separated numbers of an option, for example `1.5,-2,90`.
+/// @errors kInvalidArgument: not exactly `count` finite numbers.
+Result<std::vector<double>> parse_numbers(std::string_view option,
+                                          const std::string& text,
+                                          std::size_t count);
+
+}  // namespace semview::cli

@@ -1,0 +1,33 @@
+# Everything comes from the system; docs/architecture.md says which module may use what.
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(PNG REQUIRED)
+find_package(cppzmq REQUIRED)
+# Debian 12 ships no CMake config for protobuf: module mode.
+find_package(Protobuf REQUIRED)
+find_package(yaml-cpp REQUIRED)
+if(NOT TARGET yaml-cpp::yaml-cpp)  # renamed in 0.8
+  add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
+endif()
+pkg_check_modules(lmdb REQUIRED IMPORTED_TARGET lmdb)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
+
+if(SEMVIEW_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  find_path(RAPIDCHECK_INCLUDE_DIR rapidcheck.h REQUIRED)
+  find_library(RAPIDCHECK_LIBRARY rapidcheck REQUIRED)
+endif()
+if(SEMVIEW_BUILD_BENCH)
+  find_package(benchmark REQUIRED)
+endif()

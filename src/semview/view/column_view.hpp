@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A label panorama as runs: the form in which views are stored, sent and scored.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "semview/core/result.hpp"
+#include "semview/geometry/image.hpp"
+#include "semview/semantics/class_table.hpp"
+
+namespace semview {
+
+/// Class ids, orientation as in docs/conventions.md#panorama.
+using LabelImage = Image<ClassId>;
+/// Metres along the ray (panoramas) or along the optical axis (pinhole depth); +∞ where nothing is.
+using RangeImage = Image<float>;
+
+/// One class over the rows [previous run's end_row, end_row) of a column.
+struct Run {
+  std::uint16_t end_row = 0;
+  ClassId label = kNoHit;
+
+  bool operator==(const Run&) const = default;
+};
+
+/// A panorama of `columns` × `rows` labels, each column a list of runs from top to bottom.
+///
+/// Canonical: neighbouring runs of a column differ in class, the last one ends at `rows`; equal
+/// pictures have equal runs. A value is immutable once made and shared between threads as
+/// `shared_ptr<const ColumnView>`.
+class ColumnView {
+ public:
+  ColumnView() = default;
+
+  /// The runs of a label image.
+  static ColumnView from_labels(const LabelImage& labels);
+
+  /// Takes runs as stored or received. `first_run` has columns + 1 entries: the runs of column c
+  /// are [first_run[c], first_run[c + 1]).
+  /// @errors kDataLoss: not canonical in the sense above.
+  static Result<ColumnView> from_runs(int rows,
+                                      std::vector<std::uint32_t> first_run,
+                                      std::vector<Run> runs);
+
+  int columns() const { return first_run_.empty() ? 0 : static_cast<int>(first_run_.size()) - 1; }
+  int rows() const { return rows_; }
+  std::span<const Run> column(int c) const {
+    const auto index = static_cast<std::size_t>(c);
+    return std::span(runs_).subspan(first_run_[index], first_run_[index + 1] - first_run_[index]);
+  }
+  std::span<const Run> runs() const { return runs_; }
+  std::span<const std::uint32_t> first_run() const { return first_run_; }
+
+  /// The pixels, turned to a heading of the PoseGrid; columns() must be a multiple of 120 unless
+  /// `heading` is 0.
+  LabelImage to_labels(int heading = 0) const;
+
+  /// Memory held, for the byte budget of caches.
+  std::size_t byte_size() const {
+    return sizeof(ColumnView) + runs_.capacity() * sizeof(Run) +
+           first_run_.capacity() * sizeof(std::uint32_t);
+  }
+
+  bool operator==(const ColumnView&) const = default;
+
+ private:
+  int rows_ = 0;
+  std::vector<std::uint32_t> first_run_;
+  std::vector<Run> runs_;
+};
+
+using SharedView = std::shared_ptr<const ColumnView>;
+
+}  // namespace semview

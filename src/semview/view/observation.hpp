@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a robot's camera saw, in labels, in the shape of a view profile.
+#pragma once
+
+#include "semview/semantics/class_table.hpp"
+#include "semview/view/column_view.hpp"
+
+namespace semview {
+
+/// A label panorama with the robot's heading in the middle. Its reader has resampled it to the view
+/// profile's columns × rows; a pixel that the camera did not see is `kUnknown`, and so is one whose
+/// file says 0: an observation has no "nothing there".
+struct Observation {
+  ClassTable classes;  ///< the observer's own vocabulary, not the map's
+  LabelImage labels;   ///< ids of `classes`, or `kUnknown`
+  double stamp_s = 0.0;
+};
+
+}  // namespace semview
