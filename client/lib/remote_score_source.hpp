@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A ScoreSource that lets a server do the work.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "client/lib/connection.hpp"
+#include "semview/protocol/descriptions.hpp"
+#include "semview/similarity/weight_matrix.hpp"
+#include "semview/view/score_source.hpp"
+
+namespace semview::client {
+
+/// Scores poses against one map of a server, with the same numbers as in-process.
+///
+/// Keeps the current observation: when the server was restarted or has dropped it, `score` sends
+/// it again by itself. When the server cannot be reached, calls fail with kUnavailable or
+/// kDeadlineExceeded after `config.timeout`, and later calls find it again.
+class RemoteScoreSource final : public ScoreSource {
+ public:
+  /// Asks the server for the map.
+  /// @errors kNotFound: no such map; those of `Connection::call`.
+  static Result<std::unique_ptr<RemoteScoreSource>> open(const ConnectionConfig& config,
+                                                         const std::string& map_id,
+                                                         similarity::WeightMatrix weights);
+
+  const ViewProfile& profile() const override { return map_.profile; }
+  const protocol::MapDescription& map() const { return map_; }
+
+  /// As ScoreSource; kFailedPrecondition also: the server now has another map under this id.
+  /// After kUnavailable or kDeadlineExceeded the observation is still taken: the next `score`
+  /// sends it.
+  Status set_observation(const Observation& observation) override;
+  Result<ScoreBatch> score(const ScoreRequest& request) override;
+
+ private:
+  RemoteScoreSource(Connection connection,
+                    protocol::MapDescription map,
+                    const similarity::WeightMatrix& weights);
+  Status send_observation();
+
+  Connection connection_;
+  const protocol::MapDescription map_;
+  const std::string weights_csv_;
+  std::optional<std::string> observation_body_;  ///< as sent, to repeat it
+  std::string observation_id_;                   ///< empty: the server does not have it
+  std::uint64_t observation_epoch_ = 0;
+};
+
+}  // namespace semview::client

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a server tells of itself and of its maps, in the words of the domain.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "semview/core/hash.hpp"
+#include "semview/geometry/image.hpp"
+#include "semview/geometry/pose_grid.hpp"
+#include "semview/semantics/class_table.hpp"
+#include "semview/view/view_profile.hpp"
+
+namespace semview::protocol {
+
+/// The version in every header; a server answers any other with `kUnimplemented`.
+inline constexpr std::uint32_t kProtocolVersion = 1;
+
+struct MapSummary {
+  std::string id;
+  std::string name;
+  Fingerprint fingerprint;
+
+  bool operator==(const MapSummary&) const = default;
+};
+
+struct MapDescription {
+  MapSummary summary;
+  ClassTable classes;
+  std::vector<std::optional<Rgb>> colors;  ///< one a class
+  double ground_height_m = 0.0;
+  ViewProfile profile;
+  std::string engine;
+  std::uint32_t engine_version = 0;
+  std::string engine_reason;          ///< why this engine serves the map
+  std::vector<CellIndex> free_cells;  ///< row by row
+  std::string glb;                    ///< binary glTF, if it was asked for
+
+  bool operator==(const MapDescription&) const = default;
+};
+
+enum class JobState : std::uint8_t { kRunning = 1, kDone = 2, kFailed = 3, kCancelled = 4 };
+
+/// How far a long job of the server is.
+struct JobProgress {
+  std::string job_id;
+  JobState state = JobState::kRunning;
+  std::uint64_t done_cells = 0;
+  std::uint64_t total_cells = 0;
+  double elapsed_s = 0.0;
+  std::string error;  ///< `kFailed`: why
+
+  bool operator==(const JobProgress&) const = default;
+};
+
+}  // namespace semview::protocol
