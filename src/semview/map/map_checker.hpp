@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Lists everything that is wrong with a map, not only the first thing.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include "semview/map/map_problem.hpp"
+#include "semview/map/semantic_map.hpp"
+
+namespace semview::map {
+
+struct CheckOptions {
+  LoadOptions load;
+  double eye_height_m = 1.2;  ///< above the ground; decides what is free
+};
+
+struct MapCheck {
+  MapReport report;
+  std::optional<SemanticMap> map;  ///< if it could be loaded
+};
+
+/// Checks the map at `path` (see `load_map`, which reads by the same code). @threads safe
+MapCheck check_map(const std::filesystem::path& path, const CheckOptions& options = {});
+
+/// Adds an error to each map whose id another one before it has: ids are unique in a server.
+void check_unique_ids(std::span<const std::filesystem::path> paths, std::span<MapCheck> checks);
+
+}  // namespace semview::map

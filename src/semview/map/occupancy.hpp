@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The plan as pictures: grey for ROS tools, coloured for people.
+#pragma once
+
+#include <cstdint>
+
+#include "semview/geometry/image.hpp"
+#include "semview/map/semantic_map.hpp"
+
+namespace semview::map {
+
+/// Grey values of a map_server image with `negate: 0`: 254 free, 0 occupied, 205 unknown (outside).
+/// Occupied is what a robot of that height would hit: a slab that reaches into (ground + 0.05 m,
+/// ground + height_m); passable columns are free.
+Image<std::uint8_t> occupancy_image(const ColumnMap& map, double height_m = 1.2);
+
+}  // namespace semview::map
