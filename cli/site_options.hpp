@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The options of every verb that opens a map in this process.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "semview/core/result.hpp"
+#include "semview/service/site.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace semview::cli {
+
+/// As given on the command line.
+struct SiteOptions {
+  std::string map;  ///< the positional MAP: bundle folder, map.yaml or .glb
+  std::string engine = "auto";
+  double eye_height_m = 1.2;
+  int columns = 360;
+  int rows = 90;
+  std::string elevation_deg = "-45,45";
+  std::string cache_directory;
+  std::string cache_limit = "0";  ///< bytes, or a number with K, M, G or T (powers of 1024)
+  std::size_t threads = 0;
+  bool nearest_colour = false;
+};
+
+/// Adds MAP, --engine, --eye-height, --columns, --rows, --elevation, --cache, --cache-limit,
+/// --threads and --nearest-colour. `map_required` is false for verbs that may ask a server instead.
+/// `options` must outlive the parse.
+void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required = true);
+
+/// @errors kInvalidArgument, with the option as the field.
+Result<service::SiteConfig> site_config(const SiteOptions& options);
+
+/// Reads the options and opens the map.
+Result<std::shared_ptr<service::Site>> open_site(const SiteOptions& options);
+
+/// A number of bytes such as `500M`.
+/// @errors kInvalidArgument, with `option` as the field.
+Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text);
+
+}  // namespace semview::cli

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Views on disk: one LMDB environment a cache directory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "semview/cache/view_store.hpp"
+#include "semview/core/result.hpp"
+
+namespace semview::cache {
+
+struct LmdbConfig {
+  std::filesystem::path directory;
+  /// Storing stops when the data file would grow beyond this; 0: as far as map and disk go.
+  std::uint64_t limit_bytes = 0;
+  /// Address space reserved for the data file, the same in every process that shares the directory;
+  /// the file itself is only as large as what it holds.
+  std::uint64_t map_bytes = std::uint64_t{64} << 30U;
+};
+
+/// What a directory knows about the views of one keyspace.
+struct KeyspaceEntry {
+  Keyspace keyspace;
+  std::string map_id;               ///< for people; the fingerprint identifies the map
+  std::uint64_t map_cells = 0;      ///< views that the whole map needs
+  std::uint64_t stored = 0;         ///< records there now
+  std::uint64_t record_bytes = 0;   ///< of all records, keys left out
+  std::uint64_t payload_bytes = 0;  ///< of all views as coded
+};
+
+/// A view ready to be stored.
+struct EncodedView {
+  CellIndex cell;
+  std::vector<std::byte> record;
+};
+
+/// The disk tier. Records carry their full key and a checksum; one that is damaged, foreign or of
+/// an unknown version is counted, not served, and replaced by the next `put` of its cell.
+///
+/// Once the disk, the map or the limit is full, or a write fails, storing stops for the life of
+/// this object and reading goes on. Several processes may share a directory; within a process
+/// `open` gives the one store that it has for a directory.
+class LmdbStore final : public ViewStore {
+ public:
+  /// Opens or makes the directory.
+  /// @errors kFailedPrecondition: this process has it open with another limit or map size, or it
+  /// holds another program's database; kPermissionDenied, kUnavailable: the system refuses;
+  /// kDataLoss: the data file is shorter than it says.
+  static Result<std::shared_ptr<LmdbStore>> open(const LmdbConfig& config);
+  ~LmdbStore() override;
+
+  std::vector<SharedView> get(const Keyspace& keyspace, std::span<const CellIndex> cells) override;
+  void put(const Keyspace& keyspace,
+           std::span<const CellIndex> cells,
+           std::span<const SharedView> views) override;
+  StoreCounters counters() const override;
+
+  /// Remembers what `keyspace` belongs to and how many views the whole map needs.
+  void describe(const Keyspace& keyspace, const std::string& map_id, std::uint64_t map_cells);
+
+  /// The cells that have no sound record, in the order given; reads and checks every record that is
+  /// there.
+  std::vector<CellIndex> missing(const Keyspace& keyspace, std::span<const CellIndex> cells);
+
+  /// `put` in two steps, so that the first can run on several threads.
+  static EncodedView encode(std::span<const std::byte> keyspace_bytes,
+                            const CellIndex& cell,
+                            const ColumnView& view);
+  /// Stores in one transaction, all or nothing.
+  /// @errors kResourceExhausted: storing has stopped; the message says why.
+  Status put_encoded(const Keyspace& keyspace, std::span<const EncodedView> views);
+
+  /// All keyspaces, in order of their digests.
+  Result<std::vector<KeyspaceEntry>> keyspaces() const;
+
+  /// Every record's key and bytes in order of the keys, damaged ones too.
+  Status for_each_record(const std::function<void(std::span<const std::byte> key,
+                                                  std::span<const std::byte> record)>& visit) const;
+
+  struct VerifyReport {
+    std::uint64_t records = 0;
+    std::uint64_t sound = 0;
+    std::uint64_t damaged = 0;
+    std::uint64_t foreign = 0;
+    std::uint64_t unknown = 0;
+  };
+  /// Reads and decodes every record.
+  Result<VerifyReport> verify() const;
+
+  /// Drops records that are not sound and rewrites the data file without the room that nothing
+  /// uses.
+  /// @errors kFailedPrecondition: another process has the directory open.
+  static Result<VerifyReport> compact(const LmdbConfig& config,
+                                      std::uint64_t& bytes_before,
+                                      std::uint64_t& bytes_after);
+
+  /// Bytes of the data file in use.
+  std::uint64_t file_bytes() const;
+
+ private:
+  struct State;
+  explicit LmdbStore(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace semview::cache
