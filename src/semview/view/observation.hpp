@@ -2,6 +2,7 @@
 /// What a robot's camera saw, in labels, in the shape of a view profile.
 #pragma once
 
+#include "semview/geometry/pose2.hpp"
 #include "semview/semantics/class_table.hpp"
 #include "semview/view/column_view.hpp"
 
@@ -14,6 +15,9 @@ struct Observation {
   ClassTable classes;  ///< the observer's own vocabulary, not the map's
   LabelImage labels;   ///< ids of `classes`, or `kUnknown`
   double stamp_s = 0.0;
+  /// Where the camera stands on the robot: yaw 0, since `labels` are turned to the heading. A robot
+  /// at `map_from_base` is scored at `map_from_base * base_from_eye`.
+  Pose2 base_from_eye = {};
 };
 
 }  // namespace semview

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// An observation as a folder: `observation.yaml`, `labels.png`. See docs/formats/observation.md.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "semview/core/result.hpp"
+#include "semview/io/yaml_document.hpp"
+#include "semview/view/observation.hpp"
+#include "semview/view/observation_resampler.hpp"
+
+namespace semview::io {
+
+/// What `observation.yaml` (of one observation) and `log.yaml` (of a run log) say alike.
+struct ObservationSetup {
+  ClassTable classes;  ///< the observer's vocabulary: pixel value 1 is its first name
+  ObservationCamera
+      camera;  ///< of the label images; a panorama's size is that of its image, 0 here
+  /// Where the camera stands in base_link; of a pinhole also within `camera`.
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+};
+
+/// Reads the keys `classes`, `panorama` or `pinhole`, and `base_from_camera` of `document`; other
+/// keys are the caller's.
+/// @errors kInvalidArgument with file and line.
+Result<ObservationSetup> parse_observation_setup(const YamlNode& document);
+
+/// The same keys as text that `parse_observation_setup` reads back.
+std::string format_observation_setup(const ObservationSetup& setup);
+
+/// Reads the label image `path` (8-bit ids, 255 = unknown) and resamples it to `profile`.
+/// @errors those of read_png_grey; kInvalidArgument: a size other than the camera's, or an id past
+/// the class table, with the first such pixel.
+Result<Observation> read_labels(const std::filesystem::path& path,
+                                const ObservationSetup& setup,
+                                double stamp_s,
+                                const PanoramaCamera& profile);
+
+/// Reads the observation folder `directory` and resamples it to `profile`.
+/// @errors kNotFound: a file is missing; kInvalidArgument: as above, with file and line or pixel.
+Result<Observation> read_observation(const std::filesystem::path& directory,
+                                     const PanoramaCamera& profile);
+
+/// Writes an observation folder; `labels` are the camera's own pixels, not resampled.
+/// @errors kInvalidArgument: labels of another size than a pinhole's; kUnavailable: cannot write.
+Status write_observation(const std::filesystem::path& directory,
+                         const ObservationSetup& setup,
+                         const LabelImage& labels,
+                         double stamp_s);
+
+}  // namespace semview::io

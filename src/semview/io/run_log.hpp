@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A robot's recorded drive: odometry, label images, ground truth. See docs/formats/run_log.md.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "semview/core/result.hpp"
+#include "semview/io/observation_folder.hpp"
+#include "semview/io/trajectory.hpp"
+
+namespace semview::io {
+
+/// One line of `frames.csv`; file names are relative to the log's folder, empty where absent.
+struct FrameFiles {
+  double stamp_s = 0.0;
+  std::string labels;
+  std::string depth;
+  std::string image;
+};
+
+struct RunLog {
+  std::filesystem::path directory;
+  ObservationSetup setup;
+  std::vector<StampedPose2> odometry;                    ///< odom_from_base
+  std::optional<std::vector<StampedPose2>> groundtruth;  ///< map_from_base
+  std::vector<FrameFiles> frames;                        ///< stamps increase
+};
+
+/// Reads `log.yaml`, `odometry.txt`, `groundtruth.txt` (may be missing) and `frames.csv`. Images
+/// are left on disk.
+/// @errors kNotFound: a file is missing; kInvalidArgument with file and line: a damaged one, stamps
+/// that do not increase, a file name that leaves the folder.
+Result<RunLog> read_run_log(const std::filesystem::path& directory);
+
+/// The labels of frame `index`, resampled to `profile`; `index` < frames.size().
+/// @errors kNotFound: the frame has no labels, or their file is missing; others as `read_labels`.
+Result<Observation> read_frame(const RunLog& log, std::size_t index, const PanoramaCamera& profile);
+
+/// Writes a run log: frames one by one, trajectories at the end.
+class RunLogWriter {
+ public:
+  /// Makes the folder and writes `log.yaml`.
+  /// @errors kAlreadyExists: `directory` holds a run log; kUnavailable: cannot be written.
+  static Result<RunLogWriter> create(const std::filesystem::path& directory,
+                                     const ObservationSetup& setup);
+
+  /// Writes `labels/NNNNNN.png`. Stamps must increase.
+  Status add_frame(double stamp_s, const LabelImage& labels);
+
+  /// Writes `frames.csv`, `odometry.txt` and, unless empty, `groundtruth.txt`.
+  Status finish(std::span<const StampedPose2> odometry, std::span<const StampedPose2> groundtruth);
+
+ private:
+  RunLogWriter() = default;
+
+  std::filesystem::path directory_;
+  ObservationSetup setup_;
+  std::vector<FrameFiles> frames_;
+};
+
+}  // namespace semview::io

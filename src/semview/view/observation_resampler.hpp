@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From a camera's label image to the shape of a view profile.
+#pragma once
+
+#include <variant>
+
+#include "semview/core/result.hpp"
+#include "semview/geometry/panorama_camera.hpp"
+#include "semview/geometry/pinhole_camera.hpp"
+#include "semview/view/column_view.hpp"
+
+namespace semview {
+
+/// A spherical image that may show only a part of the surroundings. Its columns go from left to
+/// right, its rows from top to bottom, in equal angles; a full turn is the default.
+struct PartialPanorama {
+  int columns = 0;
+  int rows = 0;
+  double azimuth_left_rad = kPi;    ///< left image edge, counter-clockwise from the robot's heading
+  double azimuth_right_rad = -kPi;  ///< right image edge; below the left one, by at most 2π
+  double elevation_min_rad = -kPi / 4.0;  ///< lower image edge
+  double elevation_max_rad = kPi / 4.0;   ///< upper image edge
+
+  bool operator==(const PartialPanorama&) const = default;
+};
+
+/// A pinhole camera on the robot.
+struct MountedPinhole {
+  PinholeCamera camera;
+  /// base_link from the camera's optical frame (x right, y down, z forward).
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+};
+
+/// What took an observation's label image.
+using ObservationCamera = std::variant<PartialPanorama, MountedPinhole>;
+
+/// @errors kInvalidArgument: sizes not in 1..20000, angles or intrinsics not finite or out of
+/// order, focal lengths not above 0. `Error::field` names the member.
+Status validate(const ObservationCamera& camera);
+
+/// Resamples `labels`, taken by `camera`, to `profile` with the robot's heading in the middle.
+///
+/// A profile pixel gets the class of most source pixels whose centres fall into it (the lower id
+/// among equals). Where none falls, it gets the source pixel that its own centre falls into, and
+/// `kUnknown` where the camera did not look. `kNoHit` in the source counts as `kUnknown`: an
+/// observation has no "nothing there"; `kUnknown` takes part in the majority.
+///
+/// Only directions count: a camera that stands off the robot's centre is the caller's matter
+/// (`Observation::base_from_eye`).
+/// @param labels  As many rows and columns as `camera` says; `camera` must be valid.
+/// @cost O(source pixels + profile pixels)
+LabelImage resample(const LabelImage& labels,
+                    const ObservationCamera& camera,
+                    const PanoramaCamera& profile);
+
+}  // namespace semview
