@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/similarity/heat_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "semview/similarity/view_sweep.hpp"
+
+namespace semview::similarity {
+namespace {
+
+constexpr std::uint8_t kNoHeading = 255;
+
+struct Bounds {
+  CellIndex low{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max()};
+  CellIndex high{std::numeric_limits<std::int32_t>::min(),
+                 std::numeric_limits<std::int32_t>::min()};
+
+  std::int64_t columns() const { return std::int64_t{high.ix} - low.ix + 1; }
+  std::int64_t rows() const { return std::int64_t{high.iy} - low.iy + 1; }
+};
+
+Result<Bounds> bounds_of(std::span<const CellIndex> cells) {
+  if (cells.empty()) return fail(ErrorCode::kInvalidArgument, "heat map: no cells");
+  Bounds bounds;
+  for (const CellIndex& cell : cells) {
+    bounds.low = {std::min(bounds.low.ix, cell.ix), std::min(bounds.low.iy, cell.iy)};
+    bounds.high = {std::max(bounds.high.ix, cell.ix), std::max(bounds.high.iy, cell.iy)};
+  }
+  if (bounds.columns() > kMaxHeatMapPixels / bounds.rows()) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("heat map: {} x {} cells, expected at most {} in all",
+                            bounds.columns(),
+                            bounds.rows(),
+                            kMaxHeatMapPixels));
+  }
+  return bounds;
+}
+
+}  // namespace
+
+GridKey HeatMap::best() const {
+  GridKey key{origin, 0};
+  float highest = -std::numeric_limits<float>::infinity();
+  for (int r = 0; r < similarity.rows(); ++r) {
+    for (int c = 0; c < similarity.columns(); ++c) {
+      if (!(similarity.at(r, c) > highest)) continue;
+      highest = similarity.at(r, c);
+      key = {{origin.ix + c, origin.iy + r}, best_heading.at(r, c)};
+    }
+  }
+  return key;
+}
+
+Result<HeatMap> heat_map(const PreparedObservation& observation,
+                         ViewSource& views,
+                         std::span<const CellIndex> requested,
+                         int headings,
+                         ThreadPool& pool,
+                         const std::function<bool(std::size_t, std::size_t)>& progress) {
+  if (headings < 1 || PoseGrid::kHeadings % headings != 0) {
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              fmt::format(
+                  "heat map: {} headings, expected a divisor of {}", headings, PoseGrid::kHeadings),
+              "headings"});
+  }
+  SEMVIEW_TRY(const Bounds bounds, bounds_of(requested));
+  // Distinct, so that no two threads write one pixel.
+  std::vector<CellIndex> cells(requested.begin(), requested.end());
+  std::ranges::sort(cells);
+  const auto repeated = std::ranges::unique(cells);
+  cells.erase(repeated.begin(), repeated.end());
+  const int step = PoseGrid::kHeadings / headings;
+  const auto rows = static_cast<int>(bounds.rows());
+  const auto columns = static_cast<int>(bounds.columns());
+  HeatMap map;
+  map.origin = bounds.low;
+  map.similarity = Image<float>(rows, columns, std::numeric_limits<float>::quiet_NaN());
+  map.best_heading = Image<std::uint8_t>(rows, columns, kNoHeading);
+  const auto visit = [&](std::size_t i, const ColumnView* view) {
+    if (view == nullptr) return;
+    std::array<std::int32_t, PoseGrid::kHeadings> sums{};
+    observation.all_headings(*view, sums);
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < sums.size(); k += static_cast<std::size_t>(step)) {
+      if (sums[k] > sums[best]) best = k;
+    }
+    const int row = cells[i].iy - map.origin.iy;
+    const int column = cells[i].ix - map.origin.ix;
+    map.similarity.at(row, column) = static_cast<float>(observation.similarity(sums[best]));
+    map.best_heading.at(row, column) = static_cast<std::uint8_t>(best);
+  };
+  const auto report = [&](std::size_t done) { return progress(done, cells.size()); };
+  SEMVIEW_TRY(map.origins,
+              sweep_views(observation,
+                          views,
+                          cells,
+                          pool,
+                          visit,
+                          progress ? report : std::function<bool(std::size_t)>()));
+  return map;
+}
+
+}  // namespace semview::similarity

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The similarity of an observation over a whole floor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "semview/core/result.hpp"
+#include "semview/core/thread_pool.hpp"
+#include "semview/geometry/image.hpp"
+#include "semview/geometry/pose_grid.hpp"
+#include "semview/similarity/prepared_observation.hpp"
+#include "semview/view/view_source.hpp"
+
+namespace semview::similarity {
+
+/// The largest number of pixels of a heat map: a square kilometre of cells.
+inline constexpr std::int64_t kMaxHeatMapPixels = 100'000'000;
+
+/// Best of `headings` headings for each cell, on the cells' bounding box.
+struct HeatMap {
+  CellIndex origin;                  ///< the cell of pixel (row 0, column 0)
+  Image<float> similarity;           ///< row 0 = lowest y; NaN: not asked for, or no view
+  Image<std::uint8_t> best_heading;  ///< of the PoseGrid; ties: the lowest; 255 where NaN
+  ViewOrigins origins;
+
+  /// The cell with the highest similarity (ties: the first row by row), and its heading.
+  /// Without any view: the origin at heading 0.
+  GridKey best() const;
+};
+
+/// @param cells  May repeat.
+/// @param headings  How many of the 120 headings are tried, evenly spaced from 0: a divisor of 120.
+/// @param progress  Called now and then from the calling thread with (cells done, cells); may be
+///        empty. Returning false ends the work with kCancelled.
+/// @errors kInvalidArgument: no cells, `headings` not a divisor of 120, or cells further apart than
+/// `kMaxHeatMapPixels` allow; kCancelled; kInternal as for `score_poses`; what `views` fails with.
+Result<HeatMap> heat_map(const PreparedObservation& observation,
+                         ViewSource& views,
+                         std::span<const CellIndex> cells,
+                         int headings,
+                         ThreadPool& pool,
+                         const std::function<bool(std::size_t, std::size_t)>& progress = {});
+
+}  // namespace semview::similarity

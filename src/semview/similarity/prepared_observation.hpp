@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// An observation turned into tables from which a view's score is read off run by run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "semview/core/result.hpp"
+#include "semview/geometry/panorama_camera.hpp"
+#include "semview/geometry/pose_grid.hpp"
+#include "semview/similarity/weight_matrix.hpp"
+#include "semview/view/column_view.hpp"
+#include "semview/view/observation.hpp"
+
+namespace semview::similarity {
+
+/// Tables above this size are refused; the default profile with 20 classes takes 1.4 MB.
+inline constexpr std::size_t kMaxTableBytes = std::size_t{256} << 20U;
+
+/// Equation (1)'s numerator for any view and heading, exact in integers.
+///
+/// Weights are rounded to integers, round(w · weight_scale()). P[row][map class][column] holds
+/// their sum over the observed pixels above `row` in one column, as if the whole map were of that
+/// class; a run (class, r0, r1) of a view's column m then adds P[r1][class][c] - P[r0][class][c],
+/// where c = m + heading · W/120 (mod W). The columns of one residue modulo W/120 lie together, so
+/// that one run serves all headings in one sweep over memory. The scale is the largest integer up
+/// to 400 for which no entry of P leaves 16 bits (364 for 90 rows and weights up to 1); sums are
+/// 32-bit.
+///
+/// Immutable. @threads safe
+/// @source Neubert et al. 2017, equation (1); the literal form is
+/// tests/reference/literal_similarity.hpp
+class PreparedObservation {
+ public:
+  /// @param observation  In the shape of `camera`; pixels `kUnknown` or 0 are not scored.
+  /// @errors kInvalidArgument: other shape, a label outside its class table, or nothing observed;
+  /// kFailedPrecondition: the matrix misses a class or does not cover an elevation of the camera,
+  /// or its weights are too large for any scale; kResourceExhausted: tables above `kMaxTableBytes`.
+  static Result<PreparedObservation> build(const Observation& observation,
+                                           const WeightMatrix& weights,
+                                           const ClassTable& map_classes,
+                                           const PanoramaCamera& camera);
+
+  std::int32_t weight_scale() const { return weight_scale_; }
+  /// Pixels that count: equation (1)'s denominator.
+  std::int32_t observed_pixels() const { return observed_pixels_; }
+  double similarity(std::int32_t sum) const {
+    return static_cast<double>(sum) /
+           (static_cast<double>(weight_scale_) * static_cast<double>(observed_pixels_));
+  }
+  std::size_t byte_size() const {
+    return sizeof(PreparedObservation) + table_.capacity() * sizeof(std::int16_t);
+  }
+
+  /// True if `view` has this camera's shape and only classes of this map. The sums below are
+  /// defined for such views only.
+  bool fits(const ColumnView& view) const;
+
+  /// The sum at one heading of the PoseGrid, in [0, 120).
+  std::int32_t sum(const ColumnView& view, int heading) const;
+
+  /// The sums at all headings. @cost runs × observed columns / (W/120) 16-bit additions
+  void all_headings(const ColumnView& view,
+                    std::span<std::int32_t, PoseGrid::kHeadings> sums) const;
+
+ private:
+  PreparedObservation() = default;
+
+  std::size_t row_stride() const { return static_cast<std::size_t>(map_classes_) * class_stride(); }
+  std::size_t class_stride() const {
+    return static_cast<std::size_t>(residues_) * static_cast<std::size_t>(width_);
+  }
+  void fill(const LabelImage& labels, std::span<const std::int16_t* const> weights_of_row);
+
+  int rows_ = 0;
+  int columns_ = 0;
+  int map_classes_ = 0;  ///< with class 0
+  int residues_ = 1;     ///< W / 120
+  int first_ = 0;        ///< c / residues_ of the first observed column
+  int width_ = 0;        ///< padded number of columns of one residue
+  std::int32_t weight_scale_ = 1;
+  std::int32_t observed_pixels_ = 0;
+  std::vector<std::int16_t> table_;  ///< P: [row 0..rows][map class][residue][column]
+};
+
+}  // namespace semview::similarity

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Scores a batch of poses against one prepared observation.
+#pragma once
+
+#include "semview/core/result.hpp"
+#include "semview/core/thread_pool.hpp"
+#include "semview/similarity/prepared_observation.hpp"
+#include "semview/view/score_source.hpp"
+#include "semview/view/view_source.hpp"
+
+namespace semview::similarity {
+
+/// Poses are first merged by cell, so that each view is asked for and compared once, however many
+/// poses share it (the paper's E-cache). A pose without a view has the sum `kNoView`, its own grid
+/// heading as the best one, and `kNoView` all along its curve.
+///
+/// The result does not depend on the number of threads.
+/// @errors kInvalidArgument: a pose that is not finite or beyond the grid, or `whole_curve` without
+/// the compass; kInternal: the source gave views of another shape or map; what `views` fails with.
+Result<ScoreBatch> score_poses(const PreparedObservation& observation,
+                               ViewSource& views,
+                               const ScoreRequest& request,
+                               ThreadPool& pool);
+
+}  // namespace semview::similarity
