@@ -12,6 +12,9 @@
 
 namespace semview {
 
+// GCC 12 takes the scoped kUnknown for a shadow of the class id of that name.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
 /// gRPC's status codes, the same in code and on the wire.
 enum class ErrorCode : std::uint8_t {
   kCancelled = 1,
@@ -31,6 +34,7 @@ enum class ErrorCode : std::uint8_t {
   kDataLoss = 15,
   kUnauthenticated = 16,
 };
+#pragma GCC diagnostic pop
 
 /// gRPC's name of a code, for example `INVALID_ARGUMENT`.
 std::string_view name(ErrorCode code);
