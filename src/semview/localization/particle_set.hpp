@@ -13,7 +13,7 @@ namespace semview::localization {
 /// One hypothesis of where the robot is.
 struct Particle {
   /// The pose in the map. Its yaw is the one that odometry steps are turned by.
-  Pose2 map_from_robot;
+  Pose2 map_from_robot = {};
   /// The heading to report: with a visual compass the one it chose, else the yaw of the pose.
   double heading_rad = 0.0;
   /// False until a first compass reading, for a particle that was thrown in without any idea of its
