@@ -14,15 +14,12 @@ namespace semview::io {
 
 /// What `observation.yaml` (of one observation) and `log.yaml` (of a run log) say alike.
 struct ObservationSetup {
-  ClassTable classes;  ///< the observer's vocabulary: pixel value 1 is its first name
-  ObservationCamera
-      camera;  ///< of the label images; a panorama's size is that of its image, 0 here
-  /// Where the camera stands in base_link; of a pinhole also within `camera`.
-  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  ClassTable classes;        ///< the observer's vocabulary: pixel value 1 is its first name
+  ObservationCamera camera;  ///< a panorama's rows and columns are those of its image, 0 here
 };
 
-/// Reads the keys `classes`, `panorama` or `pinhole`, and `base_from_camera` of `document`; other
-/// keys are the caller's.
+/// Reads the keys `format`, `classes`, `panorama` or `pinhole`, and `base_from_camera` of
+/// `document`; other keys are the caller's.
 /// @errors kInvalidArgument with file and line.
 Result<ObservationSetup> parse_observation_setup(const YamlNode& document);
 

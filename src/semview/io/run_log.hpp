@@ -42,15 +42,18 @@ Result<Observation> read_frame(const RunLog& log, std::size_t index, const Panor
 /// Writes a run log: frames one by one, trajectories at the end.
 class RunLogWriter {
  public:
-  /// Makes the folder and writes `log.yaml`.
-  /// @errors kAlreadyExists: `directory` holds a run log; kUnavailable: cannot be written.
+  /// Makes the folder. `note` is one line for people: what made the log, and from what.
+  /// @errors kAlreadyExists: `directory` holds a run log; kUnavailable: cannot be made.
   static Result<RunLogWriter> create(const std::filesystem::path& directory,
-                                     const ObservationSetup& setup);
+                                     const ObservationSetup& setup,
+                                     const std::string& note = {});
 
   /// Writes `labels/NNNNNN.png`. Stamps must increase.
+  /// @errors kInvalidArgument: a stamp that does not; kUnavailable: cannot be written.
   Status add_frame(double stamp_s, const LabelImage& labels);
 
-  /// Writes `frames.csv`, `odometry.txt` and, unless empty, `groundtruth.txt`.
+  /// Writes `frames.csv`, `odometry.txt`, unless empty `groundtruth.txt`, and last `log.yaml`: a
+  /// folder without it is no run log.
   Status finish(std::span<const StampedPose2> odometry, std::span<const StampedPose2> groundtruth);
 
  private:
@@ -58,6 +61,7 @@ class RunLogWriter {
 
   std::filesystem::path directory_;
   ObservationSetup setup_;
+  std::string note_;
   std::vector<FrameFiles> frames_;
 };
 

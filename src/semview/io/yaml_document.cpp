@@ -250,6 +250,19 @@ Result<std::string> YamlNode::text_or(std::string_view key, std::string otherwis
   return value ? value->text() : Result<std::string>(std::move(otherwise));
 }
 
+std::string quoted_yaml(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\x{:02x}", c);
+    } else {
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
 Result<YamlNode> parse_yaml(const std::string& text, const std::string& name) {
   if (text.size() > kMaxBytes) {
     return fail(ErrorCode::kOutOfRange, fmt::format("{}: larger than 16 MiB", name));

@@ -91,4 +91,7 @@ Result<YamlNode> read_yaml(const std::filesystem::path& path);
 /// The same of a text; `name` stands for the file in messages.
 Result<YamlNode> parse_yaml(const std::string& text, const std::string& name);
 
+/// `text` in double quotes, for writers: any bytes come back as they were.
+std::string quoted_yaml(std::string_view text);
+
 }  // namespace semview::io

@@ -16,12 +16,14 @@ namespace semview {
 struct PartialPanorama {
   int columns = 0;
   int rows = 0;
-  double azimuth_left_rad = kPi;    ///< left image edge, counter-clockwise from the robot's heading
-  double azimuth_right_rad = -kPi;  ///< right image edge; below the left one, by at most 2π
+  /// Left image edge, counter-clockwise from the robot's heading.
+  double azimuth_left_rad = kPi;
+  /// Right image edge, below the left one by at most 2π.
+  double azimuth_right_rad = -kPi;
   double elevation_min_rad = -kPi / 4.0;  ///< lower image edge
   double elevation_max_rad = kPi / 4.0;   ///< upper image edge
-
-  bool operator==(const PartialPanorama&) const = default;
+  /// Where the camera stands in base_link; no part in resampling.
+  Eigen::Vector3d position_m = {0.0, 0.0, 1.2};
 };
 
 /// A pinhole camera on the robot.
@@ -34,6 +36,9 @@ struct MountedPinhole {
 /// What took an observation's label image.
 using ObservationCamera = std::variant<PartialPanorama, MountedPinhole>;
 
+/// Where the camera stands, seen from above; see `Observation::base_from_eye`.
+Pose2 base_from_eye(const ObservationCamera& camera);
+
 /// @errors kInvalidArgument: sizes not in 1..20000, angles or intrinsics not finite or out of
 /// order, focal lengths not above 0. `Error::field` names the member.
 Status validate(const ObservationCamera& camera);
@@ -45,8 +50,8 @@ Status validate(const ObservationCamera& camera);
 /// `kUnknown` where the camera did not look. `kNoHit` in the source counts as `kUnknown`: an
 /// observation has no "nothing there"; `kUnknown` takes part in the majority.
 ///
-/// Only directions count: a camera that stands off the robot's centre is the caller's matter
-/// (`Observation::base_from_eye`).
+/// Only directions count: that a camera stands off the robot's centre is the matter of
+/// `Observation::base_from_eye`.
 /// @param labels  As many rows and columns as `camera` says; `camera` must be valid.
 /// @cost O(source pixels + profile pixels)
 LabelImage resample(const LabelImage& labels,

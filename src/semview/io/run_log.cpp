@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/io/run_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "semview/core/check.hpp"
+#include "semview/io/png.hpp"
+#include "semview/io/text_file.hpp"
+
+namespace semview::io {
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{256} << 20U;
+constexpr std::string_view kFramesHeader = "timestamp,labels,depth,image";
+
+/// A name that stays inside the log's folder.
+bool is_inside(std::string_view name) {
+  const std::filesystem::path path(name);
+  if (path.is_absolute()) return false;
+  return std::ranges::none_of(path, [](const std::filesystem::path& part) { return part == ".."; });
+}
+
+Result<FrameFiles> parse_frame(std::string_view line, const std::string& where) {
+  std::array<std::string_view, 4> cells;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::size_t comma = line.find(',');
+    const bool last = i + 1 == cells.size();
+    if (last != (comma == std::string_view::npos)) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("{}: expected four columns: {}", where, kFramesHeader));
+    }
+    cells[i] = line.substr(0, comma);
+    if (!last) line.remove_prefix(comma + 1);
+  }
+  FrameFiles frame{0.0, std::string(cells[1]), std::string(cells[2]), std::string(cells[3])};
+  const char* const end = cells[0].data() + cells[0].size();
+  const auto [stop, status] = std::from_chars(cells[0].data(), end, frame.stamp_s);
+  if (status != std::errc() || stop != end || !std::isfinite(frame.stamp_s)) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: timestamp '{}' is not a number of seconds", where, cells[0]));
+  }
+  for (const std::string* name : {&frame.labels, &frame.depth, &frame.image}) {
+    if (!is_inside(*name)) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("{}: file '{}' is not inside the log's folder", where, *name));
+    }
+  }
+  return frame;
+}
+
+Result<std::vector<FrameFiles>> read_frames(const std::filesystem::path& path) {
+  SEMVIEW_TRY(const std::string text, read_text_file(path, kMaxBytes));
+  std::vector<FrameFiles> frames;
+  std::string_view rest = text;
+  for (int line_number = 1; !rest.empty(); ++line_number) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::string where = fmt::format("{}:{}", path.string(), line_number);
+    if (line_number == 1) {
+      if (line == kFramesHeader) continue;
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("{}: expected the header {}", where, kFramesHeader));
+    }
+    if (line.empty()) continue;
+    SEMVIEW_TRY(FrameFiles frame, parse_frame(line, where));
+    if (!frames.empty() && frame.stamp_s <= frames.back().stamp_s) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("{}: timestamp {:.9f} is not above {:.9f} of the frame before",
+                              where,
+                              frame.stamp_s,
+                              frames.back().stamp_s));
+    }
+    frames.push_back(std::move(frame));
+  }
+  if (frames.empty()) {
+    return fail(ErrorCode::kInvalidArgument, fmt::format("{}: holds no frame", path.string()));
+  }
+  return frames;
+}
+
+}  // namespace
+
+Result<RunLog> read_run_log(const std::filesystem::path& directory) {
+  RunLog log;
+  log.directory = directory;
+  SEMVIEW_TRY(const YamlNode document, read_yaml(directory / "log.yaml"));
+  SEMVIEW_TRY_STATUS(document.expect_keys(
+      {"format", "note", "classes", "panorama", "pinhole", "base_from_camera"}));
+  SEMVIEW_TRY(log.setup, parse_observation_setup(document));
+  SEMVIEW_TRY(log.frames, read_frames(directory / "frames.csv"));
+  SEMVIEW_TRY(log.odometry, read_tum(directory / "odometry.txt"));
+  std::error_code ignored;
+  if (std::filesystem::exists(directory / "groundtruth.txt", ignored)) {
+    SEMVIEW_TRY(log.groundtruth, read_tum(directory / "groundtruth.txt"));
+  }
+  return log;
+}
+
+Result<Observation> read_frame(const RunLog& log,
+                               std::size_t index,
+                               const PanoramaCamera& profile) {
+  SEMVIEW_CHECK(index < log.frames.size());
+  const FrameFiles& frame = log.frames[index];
+  if (frame.labels.empty()) {
+    return fail(ErrorCode::kNotFound,
+                fmt::format("{}: frame {} at {:.9f} s has no labels",
+                            (log.directory / "frames.csv").string(),
+                            index,
+                            frame.stamp_s));
+  }
+  return read_labels(log.directory / frame.labels, log.setup, frame.stamp_s, profile);
+}
+
+Result<RunLogWriter> RunLogWriter::create(const std::filesystem::path& directory,
+                                          const ObservationSetup& setup,
+                                          const std::string& note) {
+  std::error_code error;
+  if (std::filesystem::exists(directory / "log.yaml", error)) {
+    return fail(ErrorCode::kAlreadyExists,
+                fmt::format("{}: holds a run log already, expected a new or empty folder",
+                            directory.string()));
+  }
+  std::filesystem::create_directories(directory / "labels", error);
+  if (error) {
+    return fail(ErrorCode::kUnavailable,
+                fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+  }
+  RunLogWriter writer;
+  writer.directory_ = directory;
+  writer.setup_ = setup;
+  writer.note_ = note;
+  return writer;
+}
+
+Status RunLogWriter::add_frame(double stamp_s, const LabelImage& labels) {
+  if (!frames_.empty() && stamp_s <= frames_.back().stamp_s) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("frame stamp {:.9f} is not above {:.9f} of the frame before",
+                            stamp_s,
+                            frames_.back().stamp_s));
+  }
+  const std::string name = fmt::format("labels/{:06}.png", frames_.size());
+  SEMVIEW_TRY_STATUS(write_png(directory_ / name, labels));
+  frames_.push_back({stamp_s, name, {}, {}});
+  return {};
+}
+
+Status RunLogWriter::finish(std::span<const StampedPose2> odometry,
+                            std::span<const StampedPose2> groundtruth) {
+  std::string csv(kFramesHeader);
+  csv += '\n';
+  for (const FrameFiles& frame : frames_) {
+    csv += fmt::format("{:.9f},{},{},{}\n", frame.stamp_s, frame.labels, frame.depth, frame.image);
+  }
+  SEMVIEW_TRY_STATUS(write_text_file(directory_ / "frames.csv", csv));
+  SEMVIEW_TRY_STATUS(write_tum(directory_ / "odometry.txt", odometry));
+  if (!groundtruth.empty()) {
+    SEMVIEW_TRY_STATUS(write_tum(directory_ / "groundtruth.txt", groundtruth));
+  }
+  std::string text = format_observation_setup(setup_);
+  if (!note_.empty()) text = "note: " + quoted_yaml(note_) + '\n' + text;
+  return write_text_file(directory_ / "log.yaml", text);
+}
+
+}  // namespace semview::io
