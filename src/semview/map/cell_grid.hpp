@@ -69,9 +69,6 @@ class CellGrid {
   std::vector<std::uint8_t> facts_;
 };
 
-/// Upper limit of a grid's cells: 1 km².
-inline constexpr std::size_t kMaxGridCells = 100'000'000;
-
 /// The grid over a drawn map. A cell is free when the pixel under its centre is inside the building
 /// and no slab there reaches into (ground + 0.05 m, ground + eye height), passable columns left
 /// out. An eye that only touches a slab's face counts as in it: from there nothing sound is seen.

@@ -27,15 +27,36 @@ struct MapProblem {
   std::string remedy;               ///< what would be right
 };
 
+/// Where a problem lies: `map.yaml:12`, `labels.png: pixel (x 3, y 7)`, or the file alone.
+std::string place_of(const MapProblem& problem);
+
 /// `map.yaml:12: error: what; remedy` or `labels.png: pixel (x 3, y 7): error: what; remedy`.
 std::string to_string(const MapProblem& problem);
 
-/// Everything found, in the order of the files.
+/// A problem with a whole file.
+MapProblem file_problem(Severity severity,
+                        const std::filesystem::path& file,
+                        std::string message,
+                        std::string remedy = {});
+/// A problem in a line of a file.
+MapProblem line_problem(Severity severity,
+                        const std::filesystem::path& file,
+                        int line,
+                        std::string message,
+                        std::string remedy = {});
+/// An error from reading `file`; a place at the front of its message (`file:12: …`) becomes the
+/// problem's own.
+MapProblem problem_of(const std::filesystem::path& file, const Error& error);
+
+/// Everything found, in the order in which the files are read.
 struct MapReport {
   std::vector<MapProblem> problems;
 
-  bool has_errors() const;
+  bool has_errors() const { return count(Severity::kError) > 0; }
   std::size_t count(Severity severity) const;
 };
+
+/// The first error of a report that has one, as a value to return.
+Error first_error(const MapReport& report);
 
 }  // namespace semview::map

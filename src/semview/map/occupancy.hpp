@@ -14,4 +14,7 @@ namespace semview::map {
 /// ground + height_m); passable columns are free.
 Image<std::uint8_t> occupancy_image(const ColumnMap& map, double height_m = 1.2);
 
+/// The plan in its classes' colours, outside in white. `columns` are those of `map`.
+RgbImage plan_image(const SemanticMap& map, const ColumnMap& columns);
+
 }  // namespace semview::map

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/map/map_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "semview/io/yaml_document.hpp"
+#include "semview/map/map_limits.hpp"
+#include "semview/map/yaml_fields.hpp"
+
+namespace semview::map::detail {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr double kMaxHeight_m = 10'000.0;
+
+std::optional<Rgb> read_color(YamlFields& fields, const io::YamlNode& node) {
+  const std::optional<std::vector<double>> numbers = fields.take(node.numbers(3));
+  if (!numbers) return std::nullopt;
+  for (const double number : *numbers) {
+    if (number < 0.0 || number > 255.0 || number != std::floor(number)) {
+      fields.error(node.line(),
+                   fmt::format("colour value {} is not a whole number in 0..255", number),
+                   "write for example [120, 120, 120]");
+      return std::nullopt;
+    }
+  }
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>((*numbers)[i]); };
+  return Rgb{byte(0), byte(1), byte(2)};
+}
+
+std::optional<double> read_height(YamlFields& fields, std::string_view key, Need need) {
+  const std::optional<double> height_m = fields.number(key, need, fmt::format("{}: 0.0", key));
+  if (height_m && std::abs(*height_m) > kMaxHeight_m) {
+    fields.error(fields.line_of(key),
+                 fmt::format("{} {} m is out of limits", key, *height_m),
+                 fmt::format("heights lie within {} m of 0", kMaxHeight_m));
+    return std::nullopt;
+  }
+  return height_m;
+}
+
+TextField read_text(YamlFields& fields, std::string_view key, Need need, std::string_view example) {
+  const std::optional<std::string> text = fields.text(key, need, example);
+  return text ? TextField{*text, fields.line_of(key)} : TextField{};
+}
+
+bool is_valid_id(std::string_view id) {
+  return !id.empty() && id.size() <= kMaxMapIdLength &&
+         std::all_of(id.begin(), id.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+         });
+}
+
+void read_identity(MapFile& file, YamlFields& fields) {
+  const std::optional<std::string> id = fields.text("id", Need::kOptional);
+  const Path folder = std::filesystem::absolute(file.path).lexically_normal().parent_path();
+  file.id = id ? *id : folder.filename().string();
+  if (!is_valid_id(file.id)) {
+    fields.error(
+        id ? fields.line_of("id") : fields.line(),
+        fmt::format(
+            "id {}{} is not an id", file.id, id ? "" : " (the folder's name, since none is given)"),
+        fmt::format("an id is 1 to {} of a-z, 0-9, _ and -", kMaxMapIdLength));
+  }
+  file.name = fields.text("name", Need::kOptional).value_or(file.id);
+}
+
+std::optional<LevelField> read_level(YamlFields& parent,
+                                     std::string_view key,
+                                     Need need,
+                                     Need class_need,
+                                     const MapFile& file,
+                                     MapReport& report) {
+  const std::string example = fmt::format("{}: {{class: {}, height: {}}}",
+                                          key,
+                                          key == "ground" ? "floor" : "ceiling",
+                                          key == "ground" ? "0.0" : "2.6");
+  const std::optional<io::YamlNode> node = parent.node(key, need, example);
+  if (!node) return std::nullopt;
+  if (!node->is_mapping()) {
+    parent.error(node->line(), fmt::format("{} is not a mapping", key), "write `" + example + "`");
+    return std::nullopt;
+  }
+  YamlFields fields(*node, file.path, report);
+  fields.expect_keys({"class", "height"});
+  LevelField level;
+  level.line = node->line();
+  level.class_name = read_text(fields, "class", class_need, example);
+  level.height_m = read_height(fields, "height", Need::kRequired).value_or(0.0);
+  return level;
+}
+
+std::optional<ClassField> read_class(const io::YamlNode& node,
+                                     const Path& path,
+                                     MapReport& report) {
+  YamlFields fields(node, path, report);
+  if (!node.is_mapping()) {
+    fields.error(node.line(),
+                 "a class is not a mapping",
+                 "write for example `- {name: wall, color: [120, 120, 120], min_height: 0.0, "
+                 "max_height: 2.6}`");
+    return std::nullopt;
+  }
+  fields.expect_keys({"name",
+                      "color",
+                      "min_height",
+                      "max_height",
+                      "above",
+                      "below",
+                      "passable",
+                      "movable",
+                      "aliases"});
+  ClassField field;
+  field.line = node.line();
+  field.color_line = fields.line_of("color");
+  field.height_line = std::max(fields.line_of("min_height"), fields.line_of("max_height"));
+  field.above_line = fields.line_of("above");
+  field.below_line = fields.line_of("below");
+  MapClass& value = field.value;
+  value.name = fields.text("name", Need::kRequired, "name: wall").value_or("");
+  if (const auto color = fields.node("color", Need::kOptional)) {
+    value.color = read_color(fields, *color);
+  }
+  const std::optional<double> low_m = read_height(fields, "min_height", Need::kOptional);
+  const std::optional<double> high_m = read_height(fields, "max_height", Need::kOptional);
+  value.min_height_m = low_m.value_or(0.0);
+  value.max_height_m = high_m.value_or(0.0);
+  field.has_heights = low_m && high_m;
+  value.above = fields.text("above", Need::kOptional).value_or("");
+  value.below = fields.text("below", Need::kOptional).value_or("");
+  value.passable = fields.boolean("passable").value_or(value.name == "door");
+  value.movable = fields.number("movable", Need::kOptional).value_or(0.0);
+  if (!(value.movable >= 0.0 && value.movable <= 1.0)) {
+    fields.error(fields.line_of("movable"),
+                 fmt::format("movable {} of class {} is not in 0..1", value.movable, value.name));
+  }
+  if (const auto aliases = fields.node("aliases", Need::kOptional)) {
+    value.aliases = fields.take(aliases->texts()).value_or(std::vector<std::string>{});
+  }
+  return field;
+}
+
+void read_classes(MapFile& file, YamlFields& fields, MapReport& report) {
+  file.classes_path = file.path;
+  std::optional<io::YamlNode> list =
+      fields.node("classes", Need::kRequired, "classes: [{name: wall, ...}]");
+  if (list && list->is_scalar()) {
+    const std::optional<std::string> name = fields.take(list->text());
+    if (!name) return;
+    file.classes_path = file.path.parent_path() / *name;
+    Result<io::YamlNode> document = io::read_yaml(file.classes_path);
+    if (!document) {
+      report.problems.push_back(problem_of(file.classes_path, document.error()));
+      return;
+    }
+    list = *document;
+  }
+  if (!list) return;
+  if (!list->is_sequence() || list->items().empty()) {
+    report.problems.push_back(line_problem(Severity::kError,
+                                           file.classes_path,
+                                           list->line(),
+                                           "classes is not a list of classes",
+                                           "write a list, or the name of a file that holds one"));
+    return;
+  }
+  for (const io::YamlNode& item : list->items()) {
+    const std::optional<ClassField> field = read_class(item, file.classes_path, report);
+    if (field) file.classes.push_back(*field);
+  }
+}
+
+void read_raster(MapFile& file, YamlFields& fields) {
+  file.image = read_text(fields, "image", Need::kOptional, {});
+  if (const auto resolution = fields.number("resolution", Need::kRequired, "resolution: 0.02")) {
+    file.resolution_m = *resolution;
+    if (!(*resolution >= kMinResolution_m && *resolution <= kMaxResolution_m)) {
+      fields.error(fields.line_of("resolution"),
+                   fmt::format("resolution {} m per pixel is out of limits", *resolution),
+                   fmt::format("it is within {} to {}", kMinResolution_m, kMaxResolution_m));
+    }
+  }
+  const auto node = fields.node("origin", Need::kRequired, "origin: [0.0, 0.0, 0.0]");
+  const auto origin = node ? fields.take(node->numbers(3)) : std::nullopt;
+  if (!origin) return;
+  if (std::abs((*origin)[0]) > kMaxOrigin_m || std::abs((*origin)[1]) > kMaxOrigin_m ||
+      std::abs((*origin)[2]) > kTwoPi) {
+    fields.error(
+        node->line(),
+        "origin is out of limits",
+        fmt::format("x and y lie within {} m of 0, the yaw within 2 pi (radians)", kMaxOrigin_m));
+    return;
+  }
+  file.origin = {(*origin)[0], (*origin)[1], wrap_angle((*origin)[2])};
+}
+
+void read_geometry_kind(MapFile& file, YamlFields& fields) {
+  file.labels = read_text(fields, "labels", Need::kOptional, {});
+  file.mesh = read_text(fields, "mesh", Need::kOptional, {});
+  if ((file.labels.line > 0) == (file.mesh.line > 0)) {
+    fields.error(
+        fields.line(),
+        file.mesh.line > 0 ? "both labels and mesh are given" : "neither labels nor mesh is given",
+        "a drawn map has `labels: labels.png`, a mesh map `mesh: file.glb`");
+  }
+}
+
+bool read_format(YamlFields& fields, const MapFile& file, MapReport& report) {
+  const auto node = fields.node("format", Need::kRequired, "format: 1");
+  const auto format = node ? fields.take(node->integer()) : std::nullopt;
+  if (!format) return false;
+  if (*format == kMapFormat) return true;
+  MapProblem problem = line_problem(Severity::kError,
+                                    file.path,
+                                    node->line(),
+                                    fmt::format("format {} is not known", *format),
+                                    fmt::format("this version reads format {}", kMapFormat));
+  problem.code = ErrorCode::kUnimplemented;
+  report.problems.push_back(std::move(problem));
+  return false;
+}
+
+}  // namespace
+
+std::optional<MapFile> read_map_file(const Path& path, MapReport& report) {
+  const Result<io::YamlNode> document = io::read_yaml(path);
+  if (!document) {
+    report.problems.push_back(problem_of(path, document.error()));
+    return std::nullopt;
+  }
+  YamlFields root(*document, path, report);
+  const std::optional<io::YamlNode> block = document->find("semview");
+  if (!block || !block->is_mapping()) {
+    root.error(block ? block->line() : 0,
+               "there is no block `semview:`",
+               "a plain ROS map becomes one by `semview map import ros`");
+    return std::nullopt;
+  }
+  MapFile file;
+  file.path = path;
+  YamlFields fields(*block, path, report);
+  if (!read_format(fields, file, report)) return std::nullopt;
+  fields.expect_keys(
+      {"format", "id", "name", "labels", "mesh", "ceiling", "ground", "outside", "classes"});
+  read_identity(file, fields);
+  read_geometry_kind(file, fields);
+  const Need drawn = file.is_mesh() ? Need::kOptional : Need::kRequired;
+  if (!file.is_mesh()) read_raster(file, root);
+  file.ground = read_level(fields, "ground", drawn, drawn, file, report).value_or(LevelField{});
+  file.ceiling = read_level(fields, "ceiling", Need::kOptional, Need::kRequired, file, report);
+  if (const auto outside = fields.node("outside", Need::kOptional)) {
+    file.outside_line = outside->line();
+    file.outside = read_color(fields, *outside).value_or(Rgb{});
+  }
+  read_classes(file, fields, report);
+  return file;
+}
+
+}  // namespace semview::map::detail

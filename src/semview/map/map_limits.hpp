@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a map may at most be. docs/formats/map_bundle.md lists the same.
+#pragma once
+
+#include <cstddef>
+
+namespace semview::map {
+
+inline constexpr double kMinResolution_m = 0.001;  ///< a pixel's edge
+inline constexpr double kMaxResolution_m = 1.0;
+/// Within the grid's own limit with room for the largest image.
+inline constexpr double kMaxOrigin_m = 900'000.0;
+/// Cells of the 10 cm grid under a map: 1 km². Images have limits of their own, see io/png.hpp.
+inline constexpr std::size_t kMaxGridCells = 100'000'000;
+inline constexpr std::size_t kMaxMapIdLength = 64;
+inline constexpr std::size_t kMaxClassNameLength = 64;
+
+}  // namespace semview::map

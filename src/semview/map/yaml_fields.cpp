@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/map/yaml_fields.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace semview::map::detail {
+
+std::optional<io::YamlNode> YamlFields::node(std::string_view key,
+                                             Need need,
+                                             std::string_view example) {
+  std::optional<io::YamlNode> found = mapping_.find(key);
+  if (found && found->is_null()) found.reset();
+  if (!found && need == Need::kRequired) {
+    error(line(),
+          fmt::format("{} is missing", key),
+          example.empty() ? std::string() : fmt::format("write for example `{}`", example));
+  }
+  return found;
+}
+
+std::optional<double> YamlFields::number(std::string_view key,
+                                         Need need,
+                                         std::string_view example) {
+  const std::optional<io::YamlNode> found = node(key, need, example);
+  return found ? take(found->number()) : std::nullopt;
+}
+
+std::optional<std::string> YamlFields::text(std::string_view key,
+                                            Need need,
+                                            std::string_view example) {
+  const std::optional<io::YamlNode> found = node(key, need, example);
+  return found ? take(found->text()) : std::nullopt;
+}
+
+std::optional<bool> YamlFields::boolean(std::string_view key) {
+  const std::optional<io::YamlNode> found = node(key, Need::kOptional);
+  return found ? take(found->boolean()) : std::nullopt;
+}
+
+void YamlFields::expect_keys(std::vector<std::string_view> known) {
+  for (const io::YamlNode::Entry& entry : mapping_.unknown_entries(known)) {
+    error(entry.line,
+          fmt::format("unknown key {}", entry.key),
+          fmt::format("known here: {}", fmt::join(known, ", ")));
+  }
+}
+
+void YamlFields::error(int line, std::string message, std::string remedy) {
+  report_.problems.push_back(
+      line_problem(Severity::kError, file_, line, std::move(message), std::move(remedy)));
+}
+
+void YamlFields::warning(int line, std::string message, std::string remedy) {
+  report_.problems.push_back(
+      line_problem(Severity::kWarning, file_, line, std::move(message), std::move(remedy)));
+}
+
+int YamlFields::line_of(std::string_view key) const {
+  const std::optional<io::YamlNode> found = mapping_.find(key);
+  return found ? found->line() : 0;
+}
+
+}  // namespace semview::map::detail
