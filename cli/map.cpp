@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 
+#include "map_verbs.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
 
 void add_map_verb(CLI::App& app, int& exit_code) {
-  static_cast<void>(exit_code);
-  CLI::App* map = app.add_subcommand("map", "Check, look at and convert maps");
+  CLI::App* map = app.add_subcommand("map",
+                                     "Check, look at and convert maps. A map is a folder with a "
+                                     "map.yaml and a drawing (docs/tutorial.md), or a .glb file.");
   map->require_subcommand(1);
+  add_map_check(*map, exit_code);
+  add_map_info(*map, exit_code);
+  add_map_pictures(*map, exit_code);
+  add_map_import(*map, exit_code);
 }
 
 }  // namespace semview::cli

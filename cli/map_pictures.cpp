@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+/// `semview map preview` and `semview map occupancy`.
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "map_verbs.hpp"
+#include "semview/io/png.hpp"
+#include "semview/map/occupancy.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "verb.hpp"
+
+namespace semview::cli {
+namespace {
+
+struct Options {
+  std::string map;
+  std::string output;
+  map::LoadOptions load;
+  double height_m = 1.2;
+};
+
+Result<map::SemanticMap> load_drawn(const Options& options) {
+  SEMVIEW_TRY(map::SemanticMap map, map::load_map(options.map, options.load));
+  if (map.columns() == nullptr) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: is a mesh map, which has no drawing", options.map));
+  }
+  return map;
+}
+
+Status preview(const Options& options) {
+  SEMVIEW_TRY(const map::SemanticMap map, load_drawn(options));
+  SEMVIEW_TRY_STATUS(io::write_png(options.output, plan_image(map, *map.columns())));
+  fmt::print(
+      "{}: {} x {} pixels\n", options.output, map.columns()->columns(), map.columns()->rows());
+  return {};
+}
+
+Status occupancy(const Options& options) {
+  SEMVIEW_TRY(const map::SemanticMap map, load_drawn(options));
+  const std::string output =
+      options.output.empty() ? (map.directory / "occupancy.png").string() : options.output;
+  SEMVIEW_TRY_STATUS(io::write_png(output, occupancy_image(*map.columns(), options.height_m)));
+  fmt::print("{}: {} x {} pixels\n", output, map.columns()->columns(), map.columns()->rows());
+  return {};
+}
+
+void add_common(CLI::App& verb, Options& options) {
+  verb.add_option("MAP", options.map, "Map folder or map.yaml")->required();
+  verb.add_flag("--nearest-colour",
+                options.load.nearest_colour,
+                "Take unknown colours to be the nearest class's");
+}
+
+}  // namespace
+
+void add_map_pictures(CLI::App& map, int& exit_code) {
+  CLI::App* preview_verb = map.add_subcommand(
+      "preview", "Draw a plan in its classes' colours as semview reads it, outside in white.");
+  const auto preview_options = std::make_shared<Options>();
+  add_common(*preview_verb, *preview_options);
+  preview_verb->add_option("-o,--output", preview_options->output, "PNG to write")->required();
+  preview_verb->footer("Example: semview map preview maps/duplex_level1 -o plan.png");
+  preview_verb->callback(
+      [preview_options, &exit_code] { exit_code = report(preview(*preview_options)); });
+
+  CLI::App* verb = map.add_subcommand(
+      "occupancy",
+      "Draw the grey image that a map.yaml names for ROS tools: black is what a robot of the given "
+      "height would hit, white is free, grey is outside.");
+  const auto options = std::make_shared<Options>();
+  add_common(*verb, *options);
+  verb->add_option(
+      "-o,--output", options->output, "PNG to write; occupancy.png beside the map.yaml if absent");
+  verb->add_option("--height", options->height_m, "The robot's height in metres")
+      ->check(CLI::Range(0.05, 100.0))
+      ->capture_default_str();
+  verb->footer("Example: semview map occupancy maps/tutorial");
+  verb->callback([options, &exit_code] { exit_code = report(occupancy(*options)); });
+}
+
+}  // namespace semview::cli
