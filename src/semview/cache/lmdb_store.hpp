@@ -16,6 +16,10 @@
 
 namespace semview::cache {
 
+namespace detail {
+class Transaction;
+}
+
 struct LmdbConfig {
   std::filesystem::path directory;
   /// Storing stops when the data file would grow beyond this; 0: as far as map and disk go.
@@ -94,12 +98,15 @@ class LmdbStore final : public ViewStore {
   /// Reads and decodes every record.
   Result<VerifyReport> verify() const;
 
-  /// Drops records that are not sound and rewrites the data file without the room that nothing
-  /// uses.
-  /// @errors kFailedPrecondition: another process has the directory open.
-  static Result<VerifyReport> compact(const LmdbConfig& config,
-                                      std::uint64_t& bytes_before,
-                                      std::uint64_t& bytes_after);
+  struct CompactReport {
+    VerifyReport found;
+    std::uint64_t bytes_before = 0;
+    std::uint64_t bytes_after = 0;
+  };
+  /// Drops records that are not sound and rewrites the data file with full pages. A kill at any
+  /// moment leaves the old file or the new one.
+  /// @errors kFailedPrecondition: a process has the directory open, this one included.
+  static Result<CompactReport> compact(const LmdbConfig& config);
 
   /// Bytes of the data file in use.
   std::uint64_t file_bytes() const;
@@ -107,6 +114,9 @@ class LmdbStore final : public ViewStore {
  private:
   struct State;
   explicit LmdbStore(std::unique_ptr<State> state);
+  Status write(const Keyspace& keyspace, std::span<const EncodedView> views);
+  Result<detail::Transaction> begin_write();
+  tl::unexpected<Error> stop_storing(const Error& error);
   std::unique_ptr<State> state_;
 };
 

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/cache/lmdb_handles.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "semview/core/log.hpp"
+
+namespace semview::cache::detail {
+namespace {
+
+constexpr unsigned kMaxReaders = 1022;  // threads that read at once, all processes together
+constexpr mdb_mode_t kFileMode = 0644;
+
+ErrorCode code_of(int code) {
+  switch (code) {
+    case MDB_MAP_FULL:
+    case MDB_READERS_FULL:
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return ErrorCode::kResourceExhausted;
+    case MDB_CORRUPTED:
+    case MDB_PAGE_NOTFOUND:
+    case MDB_PANIC:
+      return ErrorCode::kDataLoss;
+    case MDB_INVALID:
+    case MDB_VERSION_MISMATCH:
+    case MDB_INCOMPATIBLE:
+      return ErrorCode::kFailedPrecondition;
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return ErrorCode::kPermissionDenied;
+    default:
+      return ErrorCode::kUnavailable;
+  }
+}
+
+}  // namespace
+
+Error lmdb_error(int code, std::string_view what) {
+  return {code_of(code), fmt::format("{}: {}", what, mdb_strerror(code))};
+}
+
+Result<Transaction> Transaction::begin(MDB_env* environment, unsigned flags) {
+  MDB_txn* handle = nullptr;
+  if (const int code = mdb_txn_begin(environment, nullptr, flags, &handle); code != 0) {
+    return fail(lmdb_error(code, "begin a transaction"));
+  }
+  return Transaction(handle);
+}
+
+Result<Cursor> Cursor::open(const Transaction& transaction, MDB_dbi database) {
+  MDB_cursor* handle = nullptr;
+  if (const int code = mdb_cursor_open(transaction.get(), database, &handle); code != 0) {
+    return fail(lmdb_error(code, "open a cursor"));
+  }
+  return Cursor(handle);
+}
+
+Result<Environment> Environment::open(const std::filesystem::path& directory,
+                                      std::uint64_t map_bytes) {
+  std::error_code made;
+  std::filesystem::create_directories(directory, made);
+  if (made) {
+    return fail(lmdb_error(made.value(), fmt::format("cache {}", directory.string())));
+  }
+  const auto failed = [&directory](int code, std::string_view what) {
+    Error error = lmdb_error(code, fmt::format("cache {}: {}", directory.string(), what));
+    if (error.code == ErrorCode::kFailedPrecondition || error.code == ErrorCode::kDataLoss) {
+      error.hint = "choose another directory, or remove this one if it holds nothing else";
+    }
+    return fail(std::move(error));
+  };
+  MDB_env* handle = nullptr;
+  if (const int code = mdb_env_create(&handle); code != 0) return failed(code, "create");
+  Environment environment;
+  environment.handle_.reset(handle);
+  mdb_env_set_mapsize(handle, map_bytes);
+  mdb_env_set_maxdbs(handle, 2);
+  mdb_env_set_maxreaders(handle, kMaxReaders);
+  // NOTLS: readers belong to calls, not threads. NOMETASYNC: a power cut may lose the last commits,
+  // never the file's order; losing views costs only casting them again.
+  if (const int code =
+          mdb_env_open(handle, directory.c_str(), MDB_NOTLS | MDB_NOMETASYNC, kFileMode);
+      code != 0) {
+    return failed(code, "open");
+  }
+  int gone = 0;
+  mdb_reader_check(handle, &gone);
+  SEMVIEW_TRY_STATUS(environment.repair_length(directory / "data.mdb"));
+  if (Status opened = environment.open_databases(); !opened) {
+    return with_context(std::move(opened), fmt::format("cache {}", directory.string()));
+  }
+  return environment;
+}
+
+/// Reading a page past the end of the file would kill the process. A file cut short is filled up
+/// with zeros: the views in the lost pages then count as damaged. (LMDB itself may leave a few
+/// unused pages at the end unwritten, so a short file is no proof of damage.)
+Status Environment::repair_length(const std::filesystem::path& file) const {
+  std::error_code error;
+  const std::uint64_t length = std::filesystem::file_size(file, error);
+  const std::uint64_t used = used_bytes();
+  if (error || length >= used) return {};
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return fail(lmdb_error(errno, file.string()));
+  const int code =
+      ::posix_fallocate(descriptor, static_cast<off_t>(length), static_cast<off_t>(used - length));
+  ::close(descriptor);
+  if (code != 0) {
+    return fail(lmdb_error(code, fmt::format("{}: restore the file's length", file.string())));
+  }
+  return {};
+}
+
+Status Environment::open_databases() {
+  SEMVIEW_TRY(Transaction transaction, Transaction::begin(get(), 0));
+  for (auto [name, database] : {std::pair("records", &records_), {"keyspaces", &keyspaces_}}) {
+    if (const int code = mdb_dbi_open(transaction.get(), name, MDB_CREATE, database); code != 0) {
+      return fail(lmdb_error(code, fmt::format("open table {}", name)));
+    }
+  }
+  if (const int code = transaction.commit(); code != 0) {
+    return fail(lmdb_error(code, "write the first pages"));
+  }
+  return {};
+}
+
+std::uint64_t Environment::page_bytes() const {
+  MDB_stat statistics{};
+  mdb_env_stat(get(), &statistics);
+  return statistics.ms_psize;
+}
+
+std::uint64_t Environment::used_bytes() const {
+  MDB_envinfo information{};
+  mdb_env_info(get(), &information);
+  return (information.me_last_pgno + 1) * page_bytes();
+}
+
+Result<DirectoryLock> DirectoryLock::take(const std::filesystem::path& directory, Kind kind) {
+  std::error_code made;
+  std::filesystem::create_directories(directory, made);
+  const std::filesystem::path file = directory / "in_use.lock";
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kFileMode);
+  if (descriptor < 0) {
+    return fail(lmdb_error(errno, fmt::format("cache {}", directory.string())));
+  }
+  DirectoryLock lock(descriptor);
+  if (::flock(descriptor, (kind == Kind::kUse ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
+    return fail(Error{
+        ErrorCode::kFailedPrecondition,
+        fmt::format("cache {}: {}",
+                    directory.string(),
+                    kind == Kind::kUse ? "is being compacted" : "another process has it open"),
+        {},
+        kind == Kind::kUse ? "try again when that is done" : "stop that process first"});
+  }
+  return lock;
+}
+
+DirectoryLock::~DirectoryLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+}  // namespace semview::cache::detail

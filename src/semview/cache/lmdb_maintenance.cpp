@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of LmdbStore that look at a directory as a whole.
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "semview/cache/bytes.hpp"
+#include "semview/cache/lmdb_state.hpp"
+#include "semview/view/view_codec.hpp"
+
+namespace semview::cache {
+namespace detail {
+namespace {
+
+constexpr std::array kDescriptionMagic = {
+    std::byte{'S'}, std::byte{'V'}, std::byte{'W'}, std::byte{'K'}};
+constexpr std::uint16_t kDescriptionFormat = 1;
+
+void add_big_endian(std::byte*& out, std::int32_t value) {
+  // The sign bit flipped: negative cells come first in byte order.
+  const std::uint32_t bits = static_cast<std::uint32_t>(value) ^ 0x80000000U;
+  for (unsigned shift = 32; shift > 0; shift -= 8) {
+    *out++ = static_cast<std::byte>((bits >> (shift - 8)) & 0xffU);
+  }
+}
+
+}  // namespace
+
+RecordKey record_key(const Fingerprint& keyspace, const CellIndex& cell) {
+  RecordKey key{};
+  const auto name = std::as_bytes(std::span(keyspace.bytes));
+  std::byte* out = std::ranges::copy(name, key.data()).out;
+  add_big_endian(out, cell.iy);
+  add_big_endian(out, cell.ix);
+  return key;
+}
+
+RecordState inspect(std::span<const std::byte> key,
+                    std::span<const std::byte> bytes,
+                    std::optional<Record>& record) {
+  Result<Record> decoded = decode_record(bytes);
+  if (!decoded) {
+    return decoded.error().code == ErrorCode::kUnimplemented ? RecordState::kUnknown
+                                                             : RecordState::kDamaged;
+  }
+  if (decoded->codec != kViewCodec) return RecordState::kUnknown;
+  if (!std::ranges::equal(record_key(digest(decoded->keyspace), decoded->cell), key)) {
+    return RecordState::kForeign;
+  }
+  record = *std::move(decoded);
+  return RecordState::kSound;
+}
+
+std::vector<std::byte> describe(const Keyspace& keyspace,
+                                const std::string& map_id,
+                                std::uint64_t map_cells) {
+  const std::vector<std::byte> key = to_bytes(keyspace);
+  const std::string id = map_id.substr(0, 255);
+  ByteWriter out;
+  out.add_bytes(kDescriptionMagic);
+  out.add(kDescriptionFormat);
+  out.add(static_cast<std::uint16_t>(key.size()));
+  out.add_bytes(key);
+  out.add(map_cells);
+  out.add(static_cast<std::uint8_t>(id.size()));
+  out.add_bytes(std::as_bytes(std::span(id)));
+  out.add(hash64(out.bytes()));
+  return std::move(out).take();
+}
+
+Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes) {
+  ByteReader in(bytes);
+  const bool magic = std::ranges::equal(in.take_bytes(kDescriptionMagic.size()), kDescriptionMagic);
+  if (!magic || in.take<std::uint16_t>() != kDescriptionFormat || in.left() < 8 ||
+      ByteReader(bytes.last(8)).take<std::uint64_t>() != hash64(bytes.first(bytes.size() - 8))) {
+    return fail(ErrorCode::kDataLoss, "description of a map: damaged");
+  }
+  KeyspaceEntry entry;
+  const auto key_length = in.take<std::uint16_t>();
+  SEMVIEW_TRY(entry.keyspace, keyspace_from_bytes(in.take_bytes(key_length)));
+  entry.map_cells = in.take<std::uint64_t>();
+  entry.map_id = in.take_string(in.take<std::uint8_t>());
+  if (in.failed()) return fail(ErrorCode::kDataLoss, "description of a map: too short");
+  return entry;
+}
+
+}  // namespace detail
+
+namespace {
+
+using detail::Cursor;
+using detail::RecordState;
+using detail::Transaction;
+
+/// Calls `visit(key, value)` for every entry of a table, in order of the keys.
+template <typename Visit>
+Status for_each(const detail::Environment& environment, MDB_dbi table, Visit&& visit) {
+  SEMVIEW_TRY(const Transaction transaction, Transaction::begin(environment.get(), MDB_RDONLY));
+  SEMVIEW_TRY(Cursor cursor, Cursor::open(transaction, table));
+  MDB_val key{};
+  MDB_val value{};
+  int code = cursor.move(key, value, MDB_FIRST);
+  for (; code == 0; code = cursor.move(key, value, MDB_NEXT)) {
+    SEMVIEW_TRY_STATUS(visit(detail::bytes_of(key), detail::bytes_of(value)));
+  }
+  if (code != MDB_NOTFOUND) return fail(detail::lmdb_error(code, "read the records"));
+  return {};
+}
+
+/// `inspect`, and the payload decoded too.
+RecordState judge(std::span<const std::byte> key, std::span<const std::byte> bytes) {
+  std::optional<Record> record;
+  const RecordState state = detail::inspect(key, bytes, record);
+  if (state != RecordState::kSound) return state;
+  const PanoramaCamera& camera = record->keyspace.profile.camera;
+  return decode_view(record->payload, camera.columns, camera.rows) ? RecordState::kSound
+                                                                   : RecordState::kDamaged;
+}
+
+void count(LmdbStore::VerifyReport& report, RecordState state) {
+  ++report.records;
+  switch (state) {
+    case RecordState::kSound:
+      ++report.sound;
+      break;
+    case RecordState::kDamaged:
+      ++report.damaged;
+      break;
+    case RecordState::kForeign:
+      ++report.foreign;
+      break;
+    case RecordState::kUnknown:
+      ++report.unknown;
+      break;
+  }
+}
+
+/// Copies what is sound into an empty environment, in order, so that pages are full.
+class Rewriter {
+ public:
+  explicit Rewriter(detail::Environment& target) : target_(target) {}
+
+  Status add(MDB_dbi table, std::span<const std::byte> key, std::span<const std::byte> value) {
+    if (!transaction_) {
+      SEMVIEW_TRY(Transaction begun, Transaction::begin(target_.get(), 0));
+      transaction_.emplace(std::move(begun));
+    }
+    MDB_val key_value = detail::value_of(key);
+    MDB_val value_value = detail::value_of(value);
+    if (const int code = mdb_put(transaction_->get(), table, &key_value, &value_value, MDB_APPEND);
+        code != 0) {
+      return fail(detail::lmdb_error(code, "write the compacted file"));
+    }
+    if (++pending_ < kRecordsACommit) return {};
+    return commit();
+  }
+
+  Status commit() {
+    if (!transaction_) return {};
+    const int code = transaction_->commit();
+    transaction_.reset();
+    pending_ = 0;
+    if (code != 0) return fail(detail::lmdb_error(code, "write the compacted file"));
+    return {};
+  }
+
+ private:
+  static constexpr std::size_t kRecordsACommit = 20'000;
+  detail::Environment& target_;
+  std::optional<Transaction> transaction_;
+  std::size_t pending_ = 0;
+};
+
+Status rewrite(const detail::Environment& source,
+               detail::Environment& target,
+               LmdbStore::VerifyReport& report) {
+  Rewriter rewriter(target);
+  SEMVIEW_TRY_STATUS(for_each(source, source.records(), [&](auto key, auto value) -> Status {
+    const RecordState state = judge(key, value);
+    count(report, state);
+    if (state != RecordState::kSound) return {};
+    return rewriter.add(target.records(), key, value);
+  }));
+  SEMVIEW_TRY_STATUS(rewriter.commit());
+  SEMVIEW_TRY_STATUS(for_each(source, source.keyspaces(), [&](auto key, auto value) -> Status {
+    if (!detail::read_description(value)) return {};
+    return rewriter.add(target.keyspaces(), key, value);
+  }));
+  SEMVIEW_TRY_STATUS(rewriter.commit());
+  if (const int code = mdb_env_sync(target.get(), 1); code != 0) {
+    return fail(detail::lmdb_error(code, "write the compacted file"));
+  }
+  return {};
+}
+
+}  // namespace
+
+Status LmdbStore::for_each_record(
+    const std::function<void(std::span<const std::byte> key, std::span<const std::byte> record)>&
+        visit) const {
+  const detail::Environment& environment = state_->environment;
+  return for_each(environment, environment.records(), [&](auto key, auto value) -> Status {
+    visit(key, value);
+    return {};
+  });
+}
+
+Result<LmdbStore::VerifyReport> LmdbStore::verify() const {
+  VerifyReport report;
+  SEMVIEW_TRY_STATUS(
+      for_each_record([&](std::span<const std::byte> key, std::span<const std::byte> record) {
+        count(report, judge(key, record));
+      }));
+  return report;
+}
+
+Result<std::vector<KeyspaceEntry>> LmdbStore::keyspaces() const {
+  const detail::Environment& environment = state_->environment;
+  std::map<Fingerprint, KeyspaceEntry> entries;
+  SEMVIEW_TRY_STATUS(
+      for_each(environment, environment.keyspaces(), [&](auto, auto value) -> Status {
+        if (const Result<KeyspaceEntry> entry = detail::read_description(value)) {
+          entries.emplace(digest(entry->keyspace), *entry);
+        }
+        return {};
+      }));
+  SEMVIEW_TRY_STATUS(
+      for_each(environment, environment.records(), [&](auto key, auto value) -> Status {
+        std::optional<Record> record;
+        if (detail::inspect(key, value, record) != RecordState::kSound) return {};
+        KeyspaceEntry& entry = entries[digest(record->keyspace)];
+        entry.keyspace = record->keyspace;  // a keyspace whose description is lost is still listed
+        ++entry.stored;
+        entry.record_bytes += value.size();
+        entry.payload_bytes += record->payload.size();
+        return {};
+      }));
+  std::vector<KeyspaceEntry> list;
+  for (auto& [name, entry] : entries) list.push_back(std::move(entry));
+  return list;
+}
+
+Result<LmdbStore::CompactReport> LmdbStore::compact(const LmdbConfig& config) {
+  const std::filesystem::path& directory = config.directory;
+  SEMVIEW_TRY(const detail::DirectoryLock lock,
+              detail::DirectoryLock::take(directory, detail::DirectoryLock::Kind::kRewrite));
+  const std::filesystem::path fresh = directory / "compacting";
+  std::error_code error;
+  std::filesystem::remove_all(fresh, error);  // of a compaction that was killed
+  CompactReport report;
+  Status written;
+  {
+    SEMVIEW_TRY(const detail::Environment source,
+                detail::Environment::open(directory, config.map_bytes));
+    SEMVIEW_TRY(detail::Environment target, detail::Environment::open(fresh, config.map_bytes));
+    written = rewrite(source, target, report.found);
+    report.bytes_before = source.used_bytes();
+    report.bytes_after = target.used_bytes();
+  }
+  if (written) {
+    // Atomic: whoever is killed here leaves either the old file or the new one.
+    std::filesystem::rename(fresh / "data.mdb", directory / "data.mdb", error);
+    if (error) written = fail(detail::lmdb_error(error.value(), "replace the data file"));
+  }
+  std::filesystem::remove_all(fresh, error);
+  if (!written) {
+    return with_context(std::move(written), fmt::format("cache {}", directory.string()));
+  }
+  return report;
+}
+
+}  // namespace semview::cache

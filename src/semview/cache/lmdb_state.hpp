@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What an open LmdbStore holds; for the sources of this module.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "semview/cache/lmdb_handles.hpp"
+#include "semview/cache/lmdb_store.hpp"
+#include "semview/cache/record.hpp"
+
+namespace semview::cache {
+
+struct LmdbStore::State {
+  State(LmdbConfig the_config, detail::DirectoryLock the_lock, detail::Environment the_environment)
+      : config(std::move(the_config)),
+        lock(std::move(the_lock)),
+        environment(std::move(the_environment)) {}
+
+  LmdbConfig config;
+  detail::DirectoryLock lock;
+  detail::Environment environment;
+  std::atomic<bool> storing{true};
+  std::atomic<std::uint64_t> hits{0};
+  std::atomic<std::uint64_t> misses{0};
+  std::atomic<std::uint64_t> stored{0};
+  std::atomic<std::uint64_t> refused{0};
+  std::atomic<std::uint64_t> damaged{0};
+  std::atomic<std::uint64_t> foreign{0};
+  std::atomic<std::uint64_t> unknown{0};
+  std::atomic<bool> read_failure_logged{false};
+  std::mutex reason_mutex;
+  std::string reason;  // why storing has stopped
+};
+
+namespace detail {
+
+/// Digest and cell; keys in byte order are cells row by row.
+using RecordKey = std::array<std::byte, 24>;
+RecordKey record_key(const Fingerprint& keyspace, const CellIndex& cell);
+
+enum class RecordState { kSound, kDamaged, kForeign, kUnknown };
+
+/// Checks all but the payload's content. `record` is set when the state is `kSound`.
+RecordState inspect(std::span<const std::byte> key,
+                    std::span<const std::byte> bytes,
+                    std::optional<Record>& record);
+
+/// The description of a keyspace in its table.
+std::vector<std::byte> describe(const Keyspace& keyspace,
+                                const std::string& map_id,
+                                std::uint64_t map_cells);
+Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes);
+
+}  // namespace detail
+}  // namespace semview::cache

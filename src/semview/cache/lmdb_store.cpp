@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/cache/lmdb_store.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "semview/cache/lmdb_state.hpp"
+#include "semview/core/check.hpp"
+#include "semview/core/log.hpp"
+#include "semview/view/view_codec.hpp"
+
+namespace semview::cache {
+namespace {
+
+using detail::RecordState;
+using detail::Transaction;
+
+/// The stores of this process by directory: LMDB must not open one twice in a process. An entry
+/// goes when its store is closed, which is after the last reference to it is gone.
+struct OpenStores {
+  std::mutex mutex;
+  std::condition_variable closed;
+  std::map<std::filesystem::path, std::weak_ptr<LmdbStore>> by_directory;
+};
+OpenStores& open_stores() {
+  static OpenStores stores;
+  return stores;
+}
+
+/// Room that storing these records may take at most: pages split half full, and the path to the
+/// root copied for each of the two tables.
+std::uint64_t room_for(std::span<const EncodedView> views, std::uint64_t page_bytes) {
+  std::uint64_t bytes = 16 * page_bytes;
+  for (const EncodedView& view : views) {
+    bytes += 2 * (view.record.size() + sizeof(detail::RecordKey) + 16);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+LmdbStore::LmdbStore(std::unique_ptr<State> state) : state_(std::move(state)) {}
+LmdbStore::~LmdbStore() = default;
+
+Result<std::shared_ptr<LmdbStore>> LmdbStore::open(const LmdbConfig& config) {
+  std::error_code error;
+  std::filesystem::path directory = std::filesystem::weakly_canonical(config.directory, error);
+  if (error) directory = config.directory;
+  OpenStores& stores = open_stores();
+  std::shared_ptr<LmdbStore> store;  // outlives the lock: its end takes the lock
+  std::unique_lock lock(stores.mutex);
+  for (;;) {
+    const auto known = stores.by_directory.find(directory);
+    if (known == stores.by_directory.end()) break;
+    store = known->second.lock();
+    if (store != nullptr) {
+      const LmdbConfig& other = store->state_->config;
+      if (other.limit_bytes == config.limit_bytes && other.map_bytes == config.map_bytes) {
+        return store;
+      }
+      return fail(ErrorCode::kFailedPrecondition,
+                  fmt::format("cache {}: already open in this process with another limit",
+                              config.directory.string()));
+    }
+    stores.closed.wait(lock);
+  }
+  SEMVIEW_TRY(detail::DirectoryLock directory_lock,
+              detail::DirectoryLock::take(config.directory, detail::DirectoryLock::Kind::kUse));
+  SEMVIEW_TRY(detail::Environment environment,
+              detail::Environment::open(config.directory, config.map_bytes));
+  store =
+      std::shared_ptr<LmdbStore>(new LmdbStore(std::make_unique<State>(
+                                     config, std::move(directory_lock), std::move(environment))),
+                                 [directory](LmdbStore* closing) {
+                                   delete closing;
+                                   const std::lock_guard closing_lock(open_stores().mutex);
+                                   open_stores().by_directory.erase(directory);
+                                   open_stores().closed.notify_all();
+                                 });
+  stores.by_directory[directory] = store;
+  return store;
+}
+
+std::vector<SharedView> LmdbStore::get(const Keyspace& keyspace, std::span<const CellIndex> cells) {
+  std::vector<SharedView> views(cells.size());
+  const Fingerprint name = digest(keyspace);
+  const PanoramaCamera& camera = keyspace.profile.camera;
+  Result<Transaction> transaction = Transaction::begin(state_->environment.get(), MDB_RDONLY);
+  if (!transaction) {
+    state_->misses += cells.size();
+    if (!state_->read_failure_logged.exchange(true)) {
+      log_warning(fmt::format("cache {}: cannot be read, views are cast again: {}",
+                              state_->config.directory.string(),
+                              transaction.error().message));
+    }
+    return views;
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const detail::RecordKey key = detail::record_key(name, cells[i]);
+    MDB_val key_value = detail::value_of(key);
+    MDB_val value{};
+    const int code = mdb_get(transaction->get(), state_->environment.records(), &key_value, &value);
+    std::optional<Record> record;
+    RecordState found = RecordState::kDamaged;
+    if (code == 0) {
+      found = detail::inspect(key, detail::bytes_of(value), record);
+      if (found == RecordState::kSound && record->keyspace != keyspace) {
+        found = RecordState::kForeign;
+      }
+    }
+    if (found == RecordState::kSound) {
+      if (Result<ColumnView> view = decode_view(record->payload, camera.columns, camera.rows)) {
+        views[i] = std::make_shared<const ColumnView>(*std::move(view));
+        ++state_->hits;
+        continue;
+      }
+      found = RecordState::kDamaged;
+    }
+    ++state_->misses;
+    if (code == MDB_NOTFOUND) continue;
+    if (found == RecordState::kDamaged) ++state_->damaged;
+    if (found == RecordState::kForeign) ++state_->foreign;
+    if (found == RecordState::kUnknown) ++state_->unknown;
+  }
+  return views;
+}
+
+std::vector<CellIndex> LmdbStore::missing(const Keyspace& keyspace,
+                                          std::span<const CellIndex> cells) {
+  const Fingerprint name = digest(keyspace);
+  std::vector<CellIndex> missing;
+  const Result<Transaction> transaction = Transaction::begin(state_->environment.get(), MDB_RDONLY);
+  for (const CellIndex& cell : cells) {
+    const detail::RecordKey key = detail::record_key(name, cell);
+    MDB_val key_value = detail::value_of(key);
+    MDB_val value{};
+    std::optional<Record> record;
+    if (!transaction ||
+        mdb_get(transaction->get(), state_->environment.records(), &key_value, &value) != 0 ||
+        detail::inspect(key, detail::bytes_of(value), record) != RecordState::kSound) {
+      missing.push_back(cell);
+    }
+  }
+  return missing;
+}
+
+EncodedView LmdbStore::encode(std::span<const std::byte> keyspace_bytes,
+                              const CellIndex& cell,
+                              const ColumnView& view) {
+  return {cell, encode_record(keyspace_bytes, cell, kViewCodec, encode_view(view))};
+}
+
+void LmdbStore::put(const Keyspace& keyspace,
+                    std::span<const CellIndex> cells,
+                    std::span<const SharedView> views) {
+  SEMVIEW_CHECK(cells.size() == views.size());
+  if (!state_->storing) {
+    state_->refused += cells.size();
+    return;
+  }
+  const std::vector<std::byte> keyspace_bytes = to_bytes(keyspace);
+  std::vector<EncodedView> encoded;
+  encoded.reserve(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    encoded.push_back(encode(keyspace_bytes, cells[i], *views[i]));
+  }
+  // What could not be stored is counted and logged; the caller has its views.
+  static_cast<void>(put_encoded(keyspace, encoded));
+}
+
+Status LmdbStore::put_encoded(const Keyspace& keyspace, std::span<const EncodedView> views) {
+  Status stored = state_->storing ? write(keyspace, views) : Status();
+  if (!state_->storing) {
+    const std::lock_guard lock(state_->reason_mutex);
+    stored = fail(ErrorCode::kResourceExhausted,
+                  fmt::format("cache {}: storing has stopped: {}",
+                              state_->config.directory.string(),
+                              state_->reason));
+  }
+  if (!stored) {
+    state_->refused += views.size();
+    return stored;
+  }
+  state_->stored += views.size();
+  return {};
+}
+
+Status LmdbStore::write(const Keyspace& keyspace, std::span<const EncodedView> views) {
+  const detail::Environment& environment = state_->environment;
+  SEMVIEW_TRY(Transaction transaction, begin_write());
+  const std::uint64_t limit = state_->config.limit_bytes;
+  // Asked inside the transaction: no other process can write now.
+  if (limit > 0 && environment.used_bytes() + room_for(views, environment.page_bytes()) > limit) {
+    return stop_storing({ErrorCode::kResourceExhausted, fmt::format("limit of {} bytes", limit)});
+  }
+  const Fingerprint name = digest(keyspace);
+  for (const EncodedView& view : views) {
+    const detail::RecordKey key = detail::record_key(name, view.cell);
+    MDB_val key_value = detail::value_of(key);
+    MDB_val there{};
+    // Another process may have stored the same bytes meanwhile.
+    if (mdb_get(transaction.get(), environment.records(), &key_value, &there) == 0 &&
+        std::ranges::equal(detail::bytes_of(there), view.record)) {
+      continue;
+    }
+    MDB_val value = detail::value_of(view.record);
+    if (const int code = mdb_put(transaction.get(), environment.records(), &key_value, &value, 0);
+        code != 0) {
+      return stop_storing(detail::lmdb_error(code, "store a view"));
+    }
+  }
+  if (const int code = transaction.commit(); code != 0) {
+    return stop_storing(detail::lmdb_error(code, "commit"));
+  }
+  return {};
+}
+
+Result<detail::Transaction> LmdbStore::begin_write() {
+  Result<Transaction> transaction = Transaction::begin(state_->environment.get(), 0);
+  if (!transaction) return stop_storing(transaction.error());
+  return transaction;
+}
+
+tl::unexpected<Error> LmdbStore::stop_storing(const Error& error) {
+  const std::lock_guard lock(state_->reason_mutex);
+  if (state_->storing.exchange(false)) {
+    state_->reason = error.message;
+    log_warning(fmt::format("cache {}: no more views are stored: {}",
+                            state_->config.directory.string(),
+                            error.message));
+  }
+  return fail(ErrorCode::kResourceExhausted, error.message);
+}
+
+void LmdbStore::describe(const Keyspace& keyspace,
+                         const std::string& map_id,
+                         std::uint64_t map_cells) {
+  const Fingerprint name = digest(keyspace);
+  const auto name_bytes = std::as_bytes(std::span(name.bytes));
+  const std::vector<std::byte> text = detail::describe(keyspace, map_id, map_cells);
+  const detail::Environment& environment = state_->environment;
+  MDB_val key = detail::value_of(name_bytes);
+  MDB_val value{};
+  {
+    const Result<Transaction> reading = Transaction::begin(environment.get(), MDB_RDONLY);
+    if (reading && mdb_get(reading->get(), environment.keyspaces(), &key, &value) == 0 &&
+        std::ranges::equal(detail::bytes_of(value), text)) {
+      return;
+    }
+  }
+  if (!state_->storing) return;
+  Result<Transaction> writing = begin_write();
+  if (!writing) return;
+  value = detail::value_of(text);
+  int code = mdb_put(writing->get(), environment.keyspaces(), &key, &value, 0);
+  if (code == 0) code = writing->commit();
+  if (code != 0) static_cast<void>(stop_storing(detail::lmdb_error(code, "describe a map")));
+}
+
+StoreCounters LmdbStore::counters() const {
+  StoreCounters counters;
+  counters.hits = state_->hits;
+  counters.misses = state_->misses;
+  counters.stored = state_->stored;
+  counters.refused = state_->refused;
+  counters.damaged = state_->damaged;
+  counters.foreign = state_->foreign;
+  counters.unknown = state_->unknown;
+  counters.bytes = file_bytes();
+  counters.storing = state_->storing;
+  return counters;
+}
+
+std::uint64_t LmdbStore::file_bytes() const { return state_->environment.used_bytes(); }
+
+}  // namespace semview::cache
