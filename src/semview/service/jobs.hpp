@@ -10,6 +10,7 @@
 #include <mutex>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "semview/core/result.hpp"
@@ -70,7 +71,8 @@ class Jobs {
 
  private:
   struct Job;
-  void finish(Job& job, JobState state, Error error);
+  void finish(Job& job, JobState from, JobState to, Error error);
+  void forget_old_jobs();
   void announce(const JobStatus& status) const;
 
   const Limits limits_;

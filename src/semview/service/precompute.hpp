@@ -27,12 +27,15 @@ struct PrecomputeRegion {
 struct PrecomputePlan {
   std::vector<CellIndex> cells;  ///< distinct view cells, row by row
   std::size_t free_cells = 0;    ///< that these views serve
-  bool whole_map = false;
 };
 
 /// The cells whose views a region needs: free cells, each by the rule of the nearest eye.
-/// @errors kInvalidArgument: empty or unordered rectangle, both parts set; kNotFound: no free cell.
+/// @errors kInvalidArgument: empty or unordered rectangle, both parts set, a place that is not
+/// free; kNotFound: no free cell.
 Result<PrecomputePlan> plan_precompute(const Site& site, const PrecomputeRegion& region);
+
+/// How many views the whole map needs.
+std::size_t map_view_cells(const Site& site);
 
 struct PrecomputeProgress {
   std::size_t cells = 0;    ///< of the plan

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/service/site.hpp"
+
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "semview/cache/cache_key.hpp"
+#include "semview/cache/lmdb_store.hpp"
+#include "semview/cache/memory_tier.hpp"
+#include "semview/cache/view_cache.hpp"
+#include "semview/map/cell_grid.hpp"
+#include "semview/map/extrusion.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "semview/raycast/embree_view_source.hpp"
+#include "semview/raycast/mesh_cell_grid.hpp"
+#include "semview/raycast/panorama_renderer.hpp"
+#include "semview/raycast/pinhole_renderer.hpp"
+#include "semview/raycast/scene.hpp"
+#include "semview/service/cached_view_source.hpp"
+#include "semview/service/limits.hpp"
+#include "semview/service/nearest_eye_view_source.hpp"
+
+namespace semview::service {
+namespace {
+
+constexpr std::size_t kMaxThreads = 1024;
+
+/// The name on the command line of a profile's field.
+std::string option_of(const std::string& field) {
+  if (field == "eye_height_m") return "--eye-height";
+  return "--" + field;
+}
+
+Status check_pixels(int columns, int rows) {
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
+  const std::uint64_t limit = Limits{}.max_pixels;
+  if (pixels <= limit) return {};
+  return fail(Error{
+      ErrorCode::kResourceExhausted,
+      fmt::format("a view of {} x {} pixels is above the limit of {} pixels", columns, rows, limit),
+      "columns"});
+}
+
+Result<raycast::Scene> build_scene(const map::SemanticMap& map) {
+  if (const map::MeshGeometry* geometry = map.mesh()) {
+    return raycast::Scene::build(geometry->mesh);
+  }
+  return raycast::Scene::build(map::extrude(*map.columns()));
+}
+
+map::CellGrid build_cells(const map::SemanticMap& map,
+                          const raycast::Scene& scene,
+                          double eye_height_m) {
+  if (const map::ColumnMap* columns = map.columns()) {
+    return map::build_cell_grid(*columns, eye_height_m);
+  }
+  return raycast::build_cell_grid(scene, map.ground_height_m, eye_height_m);
+}
+
+}  // namespace
+
+Status validate(const SiteConfig& config) {
+  if (Status valid = validate(config.profile); !valid) {
+    Error error = std::move(valid).error();
+    error.field = option_of(error.field);
+    return fail(std::move(error));
+  }
+  if (config.engine != "auto" && config.engine != raycast::kEngineName) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("engine {} is not known: auto or embree", config.engine),
+                      "--engine"});
+  }
+  if (config.threads > kMaxThreads) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("threads {} must be at most {}", config.threads, kMaxThreads),
+                      "--threads"});
+  }
+  return {};
+}
+
+Result<SharedTiers> SharedTiers::open(const SiteConfig& config) {
+  SEMVIEW_TRY_STATUS(validate(config));
+  SharedTiers tiers;
+  if (config.cache_directory) {
+    SEMVIEW_TRY(tiers.store,
+                cache::LmdbStore::open({*config.cache_directory, config.cache_limit_bytes}));
+  }
+  tiers.pool = std::make_shared<ThreadPool>(config.threads);
+  tiers.cache = std::make_shared<cache::ViewCache>(
+      std::make_shared<cache::MemoryTier>(config.memory_bytes), tiers.store);
+  return tiers;
+}
+
+struct Site::Parts {
+  map::SemanticMap map;
+  std::shared_ptr<const raycast::Scene> scene;
+  map::CellGrid cells;
+  EngineChoice engine;
+  cache::Keyspace keyspace;
+  SharedTiers tiers;
+  std::unique_ptr<raycast::EmbreeViewSource> engine_views;
+  std::unique_ptr<CachedViewSource> cached_views;
+  std::unique_ptr<NearestEyeViewSource> views;
+};
+
+Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
+                                         const std::string& id,
+                                         const SiteConfig& config,
+                                         SharedTiers tiers) {
+  SEMVIEW_TRY_STATUS(validate(config));
+  auto parts = std::make_unique<Parts>();
+  SEMVIEW_TRY(parts->map, map::load_map(path, {config.nearest_colour}));
+  if (!id.empty()) parts->map.id = id;
+  Result<raycast::Scene> scene = build_scene(parts->map);
+  if (!scene) return with_context(std::move(scene), path.string());
+  parts->scene = std::make_shared<const raycast::Scene>(*std::move(scene));
+  parts->cells = build_cells(parts->map, *parts->scene, config.profile.eye_height_m);
+  parts->engine = {std::string(raycast::kEngineName),
+                   raycast::kEngineVersion,
+                   config.engine == "auto" ? "it serves every map" : "it was asked for"};
+  parts->keyspace = {
+      parts->map.fingerprint, parts->engine.name, parts->engine.version, config.profile};
+  parts->tiers = std::move(tiers);
+  SEMVIEW_TRY(parts->engine_views,
+              raycast::EmbreeViewSource::create(
+                  parts->scene, config.profile, parts->map.ground_height_m, *parts->tiers.pool));
+  parts->cached_views =
+      std::make_unique<CachedViewSource>(*parts->engine_views, parts->keyspace, parts->tiers.cache);
+  parts->views = std::make_unique<NearestEyeViewSource>(*parts->cached_views, parts->cells);
+  return std::shared_ptr<Site>(new Site(std::move(parts)));
+}
+
+Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
+                                         const SiteConfig& config) {
+  SEMVIEW_TRY(SharedTiers tiers, SharedTiers::open(config));
+  return open(path, {}, config, std::move(tiers));
+}
+
+Site::Site(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Site::~Site() = default;
+
+const std::string& Site::id() const { return parts_->map.id; }
+const map::SemanticMap& Site::map() const { return parts_->map; }
+const map::CellGrid& Site::cells() const { return parts_->cells; }
+const EngineChoice& Site::engine() const { return parts_->engine; }
+const ViewProfile& Site::profile() const { return parts_->keyspace.profile; }
+const cache::Keyspace& Site::keyspace() const { return parts_->keyspace; }
+const raycast::Scene& Site::scene() const { return *parts_->scene; }
+ViewSource& Site::views() const { return *parts_->views; }
+ViewSource& Site::engine_views() const { return *parts_->engine_views; }
+ThreadPool& Site::pool() const { return *parts_->tiers.pool; }
+const SharedTiers& Site::tiers() const { return parts_->tiers; }
+
+double Site::eye_z_m(double eye_height_m) const {
+  return parts_->map.ground_height_m + eye_height_m;
+}
+
+Result<raycast::Panorama> Site::exact_panorama(const raycast::PanoramaRequest& request) const {
+  SEMVIEW_TRY_STATUS(raycast::validate(request));
+  SEMVIEW_TRY_STATUS(check_pixels(request.camera.columns, request.camera.rows));
+  return raycast::render_panorama(*parts_->scene, request);
+}
+
+Result<raycast::PinholeView> Site::exact_pinhole(const raycast::PinholeRequest& request) const {
+  SEMVIEW_TRY_STATUS(raycast::validate(request));
+  SEMVIEW_TRY_STATUS(check_pixels(request.camera.columns, request.camera.rows));
+  return raycast::render_pinhole(*parts_->scene, request);
+}
+
+}  // namespace semview::service
