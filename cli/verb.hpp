@@ -21,6 +21,8 @@ inline constexpr int kExitUsage = 2;
 
 /// Adds a verb to `app`; when it has run, `exit_code` holds the program's exit code.
 void add_map_verb(CLI::App& app, int& exit_code);
+void add_precompute_verb(CLI::App& app, int& exit_code);
+void add_cache_verb(CLI::App& app, int& exit_code);
 
 /// 0, or prints `semview: <message>` (and the hint) on standard error and returns `kExitFailed`,
 /// `kExitUsage` for `kInvalidArgument` with a field that starts with "--".

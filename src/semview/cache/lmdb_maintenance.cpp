@@ -5,88 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "semview/cache/bytes.hpp"
 #include "semview/cache/lmdb_state.hpp"
 #include "semview/view/view_codec.hpp"
 
 namespace semview::cache {
-namespace detail {
-namespace {
-
-constexpr std::array kDescriptionMagic = {
-    std::byte{'S'}, std::byte{'V'}, std::byte{'W'}, std::byte{'K'}};
-constexpr std::uint16_t kDescriptionFormat = 1;
-
-void add_big_endian(std::byte*& out, std::int32_t value) {
-  // The sign bit flipped: negative cells come first in byte order.
-  const std::uint32_t bits = static_cast<std::uint32_t>(value) ^ 0x80000000U;
-  for (unsigned shift = 32; shift > 0; shift -= 8) {
-    *out++ = static_cast<std::byte>((bits >> (shift - 8)) & 0xffU);
-  }
-}
-
-}  // namespace
-
-RecordKey record_key(const Fingerprint& keyspace, const CellIndex& cell) {
-  RecordKey key{};
-  const auto name = std::as_bytes(std::span(keyspace.bytes));
-  std::byte* out = std::ranges::copy(name, key.data()).out;
-  add_big_endian(out, cell.iy);
-  add_big_endian(out, cell.ix);
-  return key;
-}
-
-RecordState inspect(std::span<const std::byte> key,
-                    std::span<const std::byte> bytes,
-                    std::optional<Record>& record) {
-  Result<Record> decoded = decode_record(bytes);
-  if (!decoded) {
-    return decoded.error().code == ErrorCode::kUnimplemented ? RecordState::kUnknown
-                                                             : RecordState::kDamaged;
-  }
-  if (decoded->codec != kViewCodec) return RecordState::kUnknown;
-  if (!std::ranges::equal(record_key(digest(decoded->keyspace), decoded->cell), key)) {
-    return RecordState::kForeign;
-  }
-  record = *std::move(decoded);
-  return RecordState::kSound;
-}
-
-std::vector<std::byte> describe(const Keyspace& keyspace,
-                                const std::string& map_id,
-                                std::uint64_t map_cells) {
-  const std::vector<std::byte> key = to_bytes(keyspace);
-  const std::string id = map_id.substr(0, 255);
-  ByteWriter out;
-  out.add_bytes(kDescriptionMagic);
-  out.add(kDescriptionFormat);
-  out.add(static_cast<std::uint16_t>(key.size()));
-  out.add_bytes(key);
-  out.add(map_cells);
-  out.add(static_cast<std::uint8_t>(id.size()));
-  out.add_bytes(std::as_bytes(std::span(id)));
-  out.add(hash64(out.bytes()));
-  return std::move(out).take();
-}
-
-Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes) {
-  ByteReader in(bytes);
-  const bool magic = std::ranges::equal(in.take_bytes(kDescriptionMagic.size()), kDescriptionMagic);
-  if (!magic || in.take<std::uint16_t>() != kDescriptionFormat || in.left() < 8 ||
-      ByteReader(bytes.last(8)).take<std::uint64_t>() != hash64(bytes.first(bytes.size() - 8))) {
-    return fail(ErrorCode::kDataLoss, "description of a map: damaged");
-  }
-  KeyspaceEntry entry;
-  const auto key_length = in.take<std::uint16_t>();
-  SEMVIEW_TRY(entry.keyspace, keyspace_from_bytes(in.take_bytes(key_length)));
-  entry.map_cells = in.take<std::uint64_t>();
-  entry.map_id = in.take_string(in.take<std::uint8_t>());
-  if (in.failed()) return fail(ErrorCode::kDataLoss, "description of a map: too short");
-  return entry;
-}
-
-}  // namespace detail
-
 namespace {
 
 using detail::Cursor;
@@ -232,6 +154,7 @@ Result<std::vector<KeyspaceEntry>> LmdbStore::keyspaces() const {
         KeyspaceEntry& entry = entries[digest(record->keyspace)];
         entry.keyspace = record->keyspace;  // a keyspace whose description is lost is still listed
         ++entry.stored;
+        if (std::ranges::binary_search(entry.cells, record->cell)) ++entry.stored_cells;
         entry.record_bytes += value.size();
         entry.payload_bytes += record->payload.size();
         return {};

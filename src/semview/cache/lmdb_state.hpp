@@ -55,7 +55,7 @@ RecordState inspect(std::span<const std::byte> key,
 /// The description of a keyspace in its table.
 std::vector<std::byte> describe(const Keyspace& keyspace,
                                 const std::string& map_id,
-                                std::uint64_t map_cells);
+                                std::span<const CellIndex> map_cells);
 Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes);
 
 }  // namespace detail

@@ -238,7 +238,7 @@ tl::unexpected<Error> LmdbStore::stop_storing(const Error& error) {
 
 void LmdbStore::describe(const Keyspace& keyspace,
                          const std::string& map_id,
-                         std::uint64_t map_cells) {
+                         std::span<const CellIndex> map_cells) {
   const Fingerprint name = digest(keyspace);
   const auto name_bytes = std::as_bytes(std::span(name.bytes));
   const std::vector<std::byte> text = detail::describe(keyspace, map_id, map_cells);

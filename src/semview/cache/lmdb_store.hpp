@@ -33,10 +33,13 @@ struct LmdbConfig {
 struct KeyspaceEntry {
   Keyspace keyspace;
   std::string map_id;               ///< for people; the fingerprint identifies the map
-  std::uint64_t map_cells = 0;      ///< views that the whole map needs
-  std::uint64_t stored = 0;         ///< records there now
-  std::uint64_t record_bytes = 0;   ///< of all records, keys left out
-  std::uint64_t payload_bytes = 0;  ///< of all views as coded
+  std::vector<CellIndex> cells;     ///< whose views the whole map needs; empty: not known
+  std::uint64_t stored = 0;         ///< sound records there now
+  std::uint64_t stored_cells = 0;   ///< those of them that belong to `cells`
+  std::uint64_t record_bytes = 0;   ///< of the sound records
+  std::uint64_t payload_bytes = 0;  ///< of their views as coded
+
+  bool complete() const { return !cells.empty() && stored_cells == cells.size(); }
 };
 
 /// A view ready to be stored.
@@ -66,8 +69,10 @@ class LmdbStore final : public ViewStore {
            std::span<const SharedView> views) override;
   StoreCounters counters() const override;
 
-  /// Remembers what `keyspace` belongs to and how many views the whole map needs.
-  void describe(const Keyspace& keyspace, const std::string& map_id, std::uint64_t map_cells);
+  /// Remembers what `keyspace` belongs to and which views the whole map needs (row by row).
+  void describe(const Keyspace& keyspace,
+                const std::string& map_id,
+                std::span<const CellIndex> map_cells);
 
   /// The cells that have no sound record, in the order given; reads and checks every record that is
   /// there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/service/nearest_eye_view_source.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -28,6 +29,18 @@ Result<ViewBatch> NearestEyeViewSource::views(std::span<const CellIndex> cells) 
     if (view_of[i]) batch.views[i] = found.views[*view_of[i]];
   }
   return batch;
+}
+
+std::vector<CellIndex> view_cells(const map::CellGrid& grid, std::span<const CellIndex> cells) {
+  std::vector<CellIndex> views;
+  views.reserve(cells.size());
+  for (const CellIndex& cell : cells) {
+    if (const auto view = grid.view_cell(cell)) views.push_back(*view);
+  }
+  std::ranges::sort(views);
+  const auto repeated = std::ranges::unique(views);
+  views.erase(repeated.begin(), repeated.end());
+  return views;
 }
 
 }  // namespace semview::service

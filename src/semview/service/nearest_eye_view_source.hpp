@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "semview/view/view_source.hpp"
 
@@ -29,5 +30,8 @@ class NearestEyeViewSource final : public ViewSource {
   ViewSource& source_;
   const map::CellGrid& cells_;
 };
+
+/// The distinct cells whose views stand for those of `cells`, row by row.
+std::vector<CellIndex> view_cells(const map::CellGrid& grid, std::span<const CellIndex> cells);
 
 }  // namespace semview::service

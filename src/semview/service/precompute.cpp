@@ -13,7 +13,7 @@
 #include "semview/cache/lmdb_store.hpp"
 #include "semview/core/thread_pool.hpp"
 #include "semview/map/cell_grid.hpp"
-#include "semview/map/semantic_map.hpp"
+#include "semview/service/nearest_eye_view_source.hpp"
 #include "semview/service/site.hpp"
 
 namespace semview::service {
@@ -26,19 +26,6 @@ constexpr std::size_t kSampleCells = 48;
 
 double seconds_between(TimePoint from, TimePoint to) {
   return std::chrono::duration<double>(to - from).count();
-}
-
-/// The distinct view cells of free cells, row by row.
-std::vector<CellIndex> view_cells(const map::CellGrid& grid, std::span<const CellIndex> free) {
-  std::vector<CellIndex> cells;
-  cells.reserve(free.size());
-  for (const CellIndex& cell : free) {
-    if (const auto view_cell = grid.view_cell(cell)) cells.push_back(*view_cell);
-  }
-  std::ranges::sort(cells);
-  const auto repeated = std::ranges::unique(cells);
-  cells.erase(repeated.begin(), repeated.end());
-  return cells;
 }
 
 Result<std::vector<CellIndex>> cells_in(const map::CellGrid& grid,
@@ -135,10 +122,6 @@ Result<PrecomputePlan> plan_precompute(const Site& site, const PrecomputeRegion&
   return plan;
 }
 
-std::size_t map_view_cells(const Site& site) {
-  return view_cells(site.cells(), site.cells().free_cells()).size();
-}
-
 Result<PrecomputeResult> run_precompute(
     const Site& site,
     const PrecomputePlan& plan,
@@ -146,7 +129,6 @@ Result<PrecomputeResult> run_precompute(
     const std::function<void(const PrecomputeProgress&)>& progress,
     const Clock& clock) {
   SEMVIEW_TRY(cache::LmdbStore* const store, store_of(site));
-  store->describe(site.keyspace(), site.id(), map_view_cells(site));
   const std::vector<std::byte> keyspace_bytes = cache::to_bytes(site.keyspace());
   const std::vector<CellIndex> missing = store->missing(site.keyspace(), plan.cells);
   PrecomputeResult result;

@@ -34,9 +34,6 @@ struct PrecomputePlan {
 /// free; kNotFound: no free cell.
 Result<PrecomputePlan> plan_precompute(const Site& site, const PrecomputeRegion& region);
 
-/// How many views the whole map needs.
-std::size_t map_view_cells(const Site& site);
-
 struct PrecomputeProgress {
   std::size_t cells = 0;    ///< of the plan
   std::size_t found = 0;    ///< stored by an earlier run, and sound

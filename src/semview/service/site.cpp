@@ -127,6 +127,10 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
   parts->cached_views =
       std::make_unique<CachedViewSource>(*parts->engine_views, parts->keyspace, parts->tiers.cache);
   parts->views = std::make_unique<NearestEyeViewSource>(*parts->cached_views, parts->cells);
+  if (parts->tiers.store != nullptr) {
+    parts->tiers.store->describe(
+        parts->keyspace, parts->map.id, view_cells(parts->cells, parts->cells.free_cells()));
+  }
   return std::shared_ptr<Site>(new Site(std::move(parts)));
 }
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "site_options.hpp"
+
+#include <charconv>
+#include <limits>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "semview/geometry/angle.hpp"
+#include "verb.hpp"
+
+namespace semview::cli {
+
+void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
+  verb.add_option("map", options.map, "Map: a bundle's folder, its map.yaml, or a .glb")
+      ->type_name("MAP")
+      ->required(map_required);
+  verb.add_option("--engine", options.engine, "What casts the views: auto or embree")
+      ->capture_default_str();
+  verb.add_option("--eye-height", options.eye_height_m, "Eye above the ground, metres")
+      ->capture_default_str();
+  verb.add_option("--columns", options.columns, "Columns of a panorama, a multiple of 120")
+      ->capture_default_str();
+  verb.add_option("--rows", options.rows, "Rows of a panorama")->capture_default_str();
+  verb.add_option("--elevation", options.elevation_deg, "Lowest and highest elevation, degrees")
+      ->type_name("MIN,MAX")
+      ->capture_default_str();
+  verb.add_option("--cache", options.cache_directory, "Keep views in this directory")
+      ->type_name("DIR");
+  verb.add_option("--cache-limit",
+                  options.cache_limit,
+                  "Store no more than this many bytes (500M, 20G); 0: as far as the disk goes")
+      ->type_name("BYTES")
+      ->capture_default_str();
+  verb.add_option("--threads", options.threads, "Threads; 0: one a core")->capture_default_str();
+  verb.add_flag("--nearest-colour",
+                options.nearest_colour,
+                "Take a plan's in-between colours for the nearest class colour");
+}
+
+Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text) {
+  std::uint64_t bytes = 0;
+  const char* const end = text.data() + text.size();
+  auto [next, status] = std::from_chars(text.data(), end, bytes);
+  unsigned shift = 0;
+  if (status == std::errc() && next != end) {
+    const std::string_view unit(next, static_cast<std::size_t>(end - next));
+    const std::size_t power = std::string_view("KMGT").find(unit);
+    if (unit.size() == 1 && power != std::string_view::npos) {
+      shift = 10 * (static_cast<unsigned>(power) + 1);
+      next = end;
+    }
+  }
+  if (status != std::errc() || next != end ||
+      bytes > (std::numeric_limits<std::uint64_t>::max() >> shift)) {
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              fmt::format("{} {}: expected a number of bytes, such as 500M or 20G", option, text),
+              std::string(option)});
+  }
+  return bytes << shift;
+}
+
+Result<service::SiteConfig> site_config(const SiteOptions& options) {
+  service::SiteConfig config;
+  SEMVIEW_TRY(const std::vector<double> elevation_deg,
+              parse_numbers("--elevation", options.elevation_deg, 2));
+  config.profile.camera.columns = options.columns;
+  config.profile.camera.rows = options.rows;
+  config.profile.camera.elevation_min_rad = rad_from_deg(elevation_deg[0]);
+  config.profile.camera.elevation_max_rad = rad_from_deg(elevation_deg[1]);
+  config.profile.eye_height_m = options.eye_height_m;
+  config.engine = options.engine;
+  if (!options.cache_directory.empty()) config.cache_directory = options.cache_directory;
+  SEMVIEW_TRY(config.cache_limit_bytes, parse_bytes("--cache-limit", options.cache_limit));
+  config.threads = options.threads;
+  config.nearest_colour = options.nearest_colour;
+  SEMVIEW_TRY_STATUS(service::validate(config));
+  return config;
+}
+
+Result<std::shared_ptr<service::Site>> open_site(const SiteOptions& options) {
+  SEMVIEW_TRY(const service::SiteConfig config, site_config(options));
+  return service::Site::open(options.map, config);
+}
+
+}  // namespace semview::cli
