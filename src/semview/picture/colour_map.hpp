@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers as colours.
+#pragma once
+
+#include "semview/geometry/image.hpp"
+
+namespace semview::picture {
+
+/// The viridis colour map (Smith, van der Walt 2015): dark violet at 0, yellow at 1, even steps in
+/// lightness. `share` is clamped to [0, 1].
+Rgb viridis(double share);
+
+}  // namespace semview::picture
