@@ -109,6 +109,19 @@ TEST(ScoreSourceObservationModelTest, CompassAsksForAllHeadingsAndReportsTheBest
   EXPECT_TRUE(std::isnan(weights->headings_rad[1]));
 }
 
+TEST(ScoreSourceObservationModelTest, ScoresWhereTheEyeStands) {
+  Scripted source;
+  source.batch = batch_of({500});
+  ScoreSourceObservationModel model(source, HeadingStrategy::kOdometry, {});
+  Observation observation;
+  observation.base_from_eye = {0.2, 0.1, 0.0};
+  ASSERT_TRUE(model.set_observation(observation));
+  ASSERT_TRUE(model.weigh(std::vector<Pose2>{{1.0, 2.0, kPi / 2.0}}));
+  EXPECT_NEAR(source.asked.poses[0].x_m, 0.9, 1e-12);
+  EXPECT_NEAR(source.asked.poses[0].y_m, 2.2, 1e-12);
+  EXPECT_NEAR(source.asked.poses[0].yaw_rad, kPi / 2.0, 1e-12);
+}
+
 TEST(ScoreSourceObservationModelTest, AnswerOfAnotherSizeIsAnError) {
   Scripted source;
   source.batch = batch_of({500});

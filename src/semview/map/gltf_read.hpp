@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,10 +19,10 @@ struct LabelledMesh {
   std::vector<std::string> class_names;  ///< sorted, each used by at least one triangle
 };
 
-inline constexpr std::size_t kMaxGlbBytes = std::size_t{2} << 30U;
+inline constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30U;
 
-/// Reads the triangles of a file's default scene (of all nodes, if it names none), node transforms
-/// applied, turned from glTF's y-up to z-up: x, -z, y.
+/// Reads the triangles of a file's default scene (else its first, else of all nodes), node
+/// transforms applied, turned from glTF's y-up to z-up: x, -z, y.
 ///
 /// The class of a primitive is `extras.semview.class` of its material, mesh or node, else its
 /// material's name, else its node's, else its mesh's. Triangles, strips and fans are read; points,
@@ -36,7 +35,7 @@ inline constexpr std::size_t kMaxGlbBytes = std::size_t{2} << 30U;
 Result<LabelledMesh> read_glb(const std::filesystem::path& path);
 
 /// The same for a file in memory; `name` stands in messages.
-Result<LabelledMesh> parse_glb(std::span<const std::byte> bytes, std::string_view name);
+Result<LabelledMesh> parse_glb(std::string_view bytes, std::string_view name);
 
 /// The mesh with the ids of `classes` in place of its own.
 /// @errors kInvalidArgument: names of the mesh that `classes` does not have, all of them listed.

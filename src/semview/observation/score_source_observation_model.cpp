@@ -52,10 +52,16 @@ ScoreSummary summarize(const ScoreBatch& batch) {
 
 }  // namespace
 
+Status ScoreSourceObservationModel::set_observation(const Observation& observation) {
+  base_from_eye_ = observation.base_from_eye;
+  return source_.set_observation(observation);
+}
+
 Result<ObservationWeights> ScoreSourceObservationModel::weigh(std::span<const Pose2> poses) {
   const bool compass = strategy_ == localization::HeadingStrategy::kCompass;
   ScoreRequest request;
-  request.poses.assign(poses.begin(), poses.end());
+  request.poses.reserve(poses.size());
+  for (const Pose2& pose : poses) request.poses.push_back(pose * base_from_eye_);
   request.mode = compass ? HeadingMode::kCompass : HeadingMode::kAsGiven;
   SEMVIEW_TRY(const ScoreBatch batch, source_.score(request));
   SEMVIEW_TRY_STATUS(check_shape(batch, poses.size(), compass));

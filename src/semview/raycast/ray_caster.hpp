@@ -23,6 +23,7 @@ struct RayDirection {
 struct RayHit {
   ClassId label = kNoHit;
   float parameter = std::numeric_limits<float>::infinity();
+  bool back_face = false;  ///< met from the side that is not free space
 };
 
 /// Sets flush-to-zero and denormals-are-zero, as Embree asks, for the life of this object.
@@ -131,16 +132,17 @@ class RayCaster {
                 bool hit,
                 unsigned triangle,
                 float start_to_hit,
-                bool faces_away) const {
+                bool back_face) const {
     if (!hit) return {};
-    if (start_to_hit <= 2.0F * kTouch && faces_away) {
+    if (start_to_hit <= 2.0F * kTouch && back_face) {
       RTCRayHit again = ray(direction, 2.0F * kTouch);
       intersect_one(impl_.scene, again);
       if (again.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
       triangle = again.hit.primID;
       start_to_hit = again.ray.tfar;
+      back_face = facing_away(direction, again.hit.Ng_x, again.hit.Ng_y, again.hit.Ng_z);
     }
-    return {impl_.labels[triangle], std::max(0.0F, start_to_hit - kTouch)};
+    return {impl_.labels[triangle], std::max(0.0F, start_to_hit - kTouch), back_face};
   }
 
   const Scene::Impl& impl_;

@@ -25,9 +25,9 @@ inline constexpr std::size_t kMaxTableBytes = std::size_t{256} << 20U;
 /// their sum over the observed pixels above `row` in one column, as if the whole map were of that
 /// class; a run (class, r0, r1) of a view's column m then adds P[r1][class][c] - P[r0][class][c],
 /// where c = m + heading · W/120 (mod W). The columns of one residue modulo W/120 lie together, so
-/// that one run serves all headings in one sweep over memory. The scale is the largest integer up
-/// to 400 for which no entry of P leaves 16 bits (364 for 90 rows and weights up to 1); sums are
-/// 32-bit.
+/// that one run serves all headings in one sweep over memory. The scale is
+/// floor(min(400, 32767 / (H · max|w|))), less where rounding would let an entry of P leave 16 bits
+/// (364 for 90 rows and weights up to 1); sums are 32-bit.
 ///
 /// Immutable. @threads safe
 /// @source Neubert et al. 2017, equation (1); the literal form is

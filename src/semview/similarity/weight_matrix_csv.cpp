@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The file form of WeightMatrix: docs/formats/weights.md.
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -10,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "semview/similarity/text_table.hpp"
 #include "semview/similarity/weight_matrix.hpp"
 
 namespace semview::similarity {
@@ -17,13 +17,6 @@ namespace {
 
 constexpr std::string_view kBandMin = "elevation_min_deg";
 constexpr std::string_view kBandMax = "elevation_max_deg";
-
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 /// The cells of a line; a cell in double quotes may hold commas, and "" for a quote.
 /// `nullopt` when a quote does not end.
@@ -58,14 +51,6 @@ std::string quoted(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   return text + "\"";
-}
-
-std::optional<double> number(const std::string& cell) {
-  double value = 0.0;
-  const char* const end = cell.data() + cell.size();
-  const auto [stop, status] = std::from_chars(cell.data(), end, value);
-  if (status != std::errc() || stop != end || !std::isfinite(value)) return {};
-  return value;
 }
 
 /// Collects the rows of the file band by band.
@@ -136,8 +121,8 @@ class TableReader {
     }
     std::pair<double, double> range{-90.0, 90.0};
     if (banded_) {
-      const std::optional<double> low = number(cells[0]);
-      const std::optional<double> high = number(cells[1]);
+      const std::optional<double> low = parse_number(cells[0]);
+      const std::optional<double> high = parse_number(cells[1]);
       if (!low || !high) return wrong("expected a band in degrees in the first two cells");
       range = {*low, *high};
     }
@@ -150,7 +135,7 @@ class TableReader {
     }
     rows.names.push_back(cells[name_column()]);
     for (std::size_t i = name_column() + 1; i < cells.size(); ++i) {
-      const std::optional<double> weight = number(cells[i]);
+      const std::optional<double> weight = parse_number(cells[i]);
       if (!weight) {
         return wrong(fmt::format("weight '{}' of {} for {}: expected a finite number",
                                  cells[i],
@@ -201,12 +186,8 @@ Result<WeightMatrix> parse_weight_matrix(std::string_view text, std::string_view
         fmt::format("{}: {} bytes, expected at most {}", name, text.size(), kMaxWeightFileBytes));
   }
   TableReader reader(name);
-  for (int line = 1; !text.empty(); ++line) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view content = trim(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (content.empty() || content.starts_with('#')) continue;
-    SEMVIEW_TRY_STATUS(reader.line(line, content));
+  for (const TextLine& line : content_lines(text)) {
+    SEMVIEW_TRY_STATUS(reader.line(line.number, line.text));
   }
   return reader.finish();
 }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Monte Carlo localization of one robot, frame by frame, with whatever scores its poses.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "semview/core/result.hpp"
+#include "semview/localization/heading_strategy.hpp"
+#include "semview/localization/motion_model.hpp"
+#include "semview/localization/particle_filter.hpp"
+#include "semview/localization/pose_estimate.hpp"
+#include "semview/observation/score_source_observation_model.hpp"
+#include "semview/observation/similarity_weighting.hpp"
+#include "semview/view/score_source.hpp"
+
+namespace semview::robot {
+
+/// docs/localization.md tells what each parameter does and why it has its default.
+struct LocalizerConfig {
+  localization::HeadingStrategy heading = localization::HeadingStrategy::kOdometry;
+  localization::ParticleFilterConfig filter = {};
+  observation::SimilarityWeightingConfig weighting = {};
+  localization::EstimateKind estimate = localization::EstimateKind::kStrongestMode;
+  localization::ModeConfig mode = {};
+};
+
+/// @errors kInvalidArgument: out of range; `Error::field` names it.
+Status validate(const LocalizerConfig& config);
+
+/// One moment of the robot's drive.
+struct Frame {
+  double stamp_s = 0.0;
+  Pose2 odom_from_robot;                   ///< odometry at this stamp
+  std::optional<Observation> observation;  ///< none: the camera gave nothing
+};
+
+enum class FrameState {
+  kScored,         ///< the observation has been used
+  kStale,          ///< nobody could score it: the pose is dead reckoning from the last good one
+  kUnseen,         ///< there was nothing to score: dead reckoning as well
+  kUninformative,  ///< it was scored, but no particle was possible: dead reckoning as well
+};
+
+/// "scored", "stale", "unseen" or "uninformative".
+std::string_view name(FrameState state);
+
+/// What became of a frame.
+struct FrameReport {
+  double stamp_s = 0.0;
+  FrameState state = FrameState::kScored;
+  std::string reason;  ///< why it was not scored; empty if it was
+  localization::PoseEstimate estimate;
+  double effective_sample_size = 0.0;
+  bool resampled = false;
+  observation::ScoreSummary scores;  ///< zeros unless scored
+};
+
+/// The filter of one robot.
+///
+/// When the source cannot be reached, is too slow or too busy (kUnavailable, kDeadlineExceeded,
+/// kResourceExhausted, kCancelled) the robot goes on by odometry: particles spread as their motion
+/// model says, and the reported pose moves on from the last scored one. The next frame tries again.
+/// @threads for one thread at a time
+class Localizer {
+ public:
+  /// `source` must outlive the localizer; `config` must be valid; `start` not empty: the belief at
+  /// the first frame.
+  Localizer(const LocalizerConfig& config,
+            ScoreSource& source,
+            std::shared_ptr<const localization::MotionModel> motion,
+            localization::ParticleSet start,
+            std::uint64_t seed);
+
+  /// @errors those of the source that waiting does not heal, a wrong map or matrix for example.
+  Result<FrameReport> advance(const Frame& frame);
+
+  const localization::ParticleSet& particles() const { return filter_.particles(); }
+
+ private:
+  void follow_odometry(const Pose2& odom_from_robot);
+  Result<FrameReport> score(const Observation& observation);
+  localization::PoseEstimate dead_reckoning() const;
+
+  LocalizerConfig config_;
+  observation::ScoreSourceObservationModel model_;
+  localization::ParticleFilter filter_;
+  std::optional<Pose2> odom_from_last_frame_;
+  std::optional<Pose2> map_from_last_estimate_;  ///< carried on by odometry
+};
+
+}  // namespace semview::robot

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/similarity/weight_proposal.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace semview::similarity {
+namespace {
+
+bool is_called(const NamedClass& named, const std::string& name) {
+  return named.name == name || std::ranges::find(named.aliases, name) != named.aliases.end();
+}
+
+bool share_a_name(const NamedClass& a, const NamedClass& b) {
+  return is_called(a, b.name) || std::ranges::any_of(b.aliases, [&](const std::string& alias) {
+           return is_called(a, alias);
+         });
+}
+
+/// The name by which the table knows a class: its own, else the first known alias, else its own.
+const std::string& known_name(const NamedClass& named, const SynonymTable& synonyms) {
+  if (synonyms.contains(named.name)) return named.name;
+  const auto alias = std::ranges::find_if(
+      named.aliases, [&](const std::string& name) { return synonyms.contains(name); });
+  return alias == named.aliases.end() ? named.name : *alias;
+}
+
+double weight_of(const NamedClass& observed, const NamedClass& map, const SynonymTable& synonyms) {
+  const std::string& map_name = known_name(map, synonyms);
+  if (share_a_name(observed, map)) return synonyms.significance(map_name);
+  return synonyms.score(known_name(observed, synonyms), map_name);
+}
+
+}  // namespace
+
+Result<WeightProposal> propose_weights(std::span<const NamedClass> observed,
+                                       std::span<const NamedClass> map,
+                                       const SynonymTable& synonyms) {
+  std::vector<NamedClass> columns(map.begin(), map.end());
+  columns.push_back({std::string(kNoneColumn)});
+  std::vector<std::string> observed_names;
+  std::vector<std::string> map_names;
+  for (const NamedClass& named : observed) observed_names.push_back(named.name);
+  for (const NamedClass& named : columns) map_names.push_back(named.name);
+
+  WeightMatrix::Band band;
+  std::vector<bool> row_matched(observed.size(), false);
+  std::vector<bool> column_matched(columns.size(), false);
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      const double weight = weight_of(observed[i], columns[j], synonyms);
+      band.weights.push_back(weight);
+      if (weight <= 0.0) continue;
+      // Seeing nothing tells a class from no other: `none` matches no row.
+      if (j < map.size()) row_matched[i] = true;
+      column_matched[j] = true;
+    }
+  }
+  SEMVIEW_TRY(WeightMatrix matrix,
+              WeightMatrix::build(std::move(observed_names), std::move(map_names), {band}));
+  WeightProposal proposal{std::move(matrix), {}, {}};
+  for (std::size_t i = 0; i < observed.size(); ++i) {
+    if (!row_matched[i]) proposal.unmatched_observed.push_back(observed[i].name);
+  }
+  for (std::size_t j = 0; j < map.size(); ++j) {
+    if (!column_matched[j]) proposal.unmatched_map.push_back(map[j].name);
+  }
+  return proposal;
+}
+
+}  // namespace semview::similarity

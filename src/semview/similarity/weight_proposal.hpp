@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A first weight matrix for a map and a vocabulary, made from names.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "semview/core/result.hpp"
+#include "semview/similarity/synonym_table.hpp"
+#include "semview/similarity/vocabulary.hpp"
+#include "semview/similarity/weight_matrix.hpp"
+
+namespace semview::similarity {
+
+struct WeightProposal {
+  WeightMatrix matrix;
+  /// Classes without a positive weight: these say nothing yet, and want a look.
+  std::vector<std::string> unmatched_observed;
+  std::vector<std::string> unmatched_map;
+};
+
+/// Rows are the observed classes, columns those of the map and `none`. Two classes of one name, or
+/// of which one's name or alias is one of the other's, match in full: with their significance,
+/// which is 1 unless the table has another. Otherwise the table's score of any of their names
+/// counts.
+/// @errors kInvalidArgument: names that a weight matrix does not take.
+Result<WeightProposal> propose_weights(std::span<const NamedClass> observed,
+                                       std::span<const NamedClass> map,
+                                       const SynonymTable& synonyms = SynonymTable::shipped());
+
+}  // namespace semview::similarity
