@@ -10,6 +10,7 @@
 #include "semview/core/result.hpp"
 #include "semview/geometry/pose_grid.hpp"
 #include "semview/map/column_map.hpp"
+#include "semview/map/map_limits.hpp"
 
 namespace semview::map {
 
