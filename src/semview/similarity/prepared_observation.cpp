@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -18,8 +19,19 @@ namespace {
 constexpr int kHeadings = PoseGrid::kHeadings;
 constexpr std::int32_t kMaxScale = 400;
 constexpr double kMaxEntry = std::numeric_limits<std::int16_t>::max();
-/// Columns swept at once, in registers: 120 is five blocks of it.
-constexpr int kBlock = 24;
+/// Columns swept at once: six 128-bit registers, the fastest of 16 to 64 columns with plain SSE2.
+constexpr int kBlock = 48;
+
+/// Eight 16-bit lanes, an extension of GCC and Clang that also compiles where there is no such
+/// register. Unsigned, so that sums may wrap on the way to one that fits.
+using Lanes = std::uint16_t __attribute__((vector_size(16)));
+constexpr int kLanes = 8;
+
+Lanes load(const std::int16_t* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof(lanes));
+  return lanes;
+}
 
 /// The largest scale for which a column of the heaviest weight stays within 16 bits.
 std::int32_t scale_for(double max_abs_weight, int rows) {
@@ -237,19 +249,20 @@ void PreparedObservation::all_headings(const ColumnView& view,
       std::array<std::int32_t, kBlock> group{};
       for (int residue = 0; residue < residues_; ++residue) {
         const std::int16_t* const table = table_.data() + residue * width_ + block;
-        // A column's sum fits 16 bits, so its parts may wrap on the way.
-        std::array<std::int16_t, kBlock> column{};
+        std::array<Lanes, kBlock / kLanes> lanes{};
         std::size_t above = 0;
         for (const Run& run : view.column(q * residues_ + residue)) {
           const std::size_t label = run.label * classes_apart;
           const std::size_t below = run.end_row * rows_apart;
           const std::int16_t* const from = table + above + label;
           const std::int16_t* const to = table + below + label;
-          for (std::size_t i = 0; i < kBlock; ++i) {
-            column[i] = static_cast<std::int16_t>(column[i] + to[i] - from[i]);
+          for (std::size_t i = 0; i < lanes.size(); ++i) {
+            lanes[i] += load(to + i * kLanes) - load(from + i * kLanes);
           }
           above = below;
         }
+        std::array<std::int16_t, kBlock> column;
+        std::memcpy(column.data(), lanes.data(), sizeof(column));
         for (std::size_t i = 0; i < kBlock; ++i) group[i] += column[i];
       }
       std::int32_t* const target = unfolded.data() + (first_ + block - q + kHeadings);
