@@ -74,8 +74,7 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
   // Distinct, so that no two threads write one pixel.
   std::vector<CellIndex> cells(requested.begin(), requested.end());
   std::ranges::sort(cells);
-  const auto repeated = std::ranges::unique(cells);
-  cells.erase(repeated.begin(), repeated.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   const int step = PoseGrid::kHeadings / headings;
   const auto rows = static_cast<int>(bounds.rows());
   const auto columns = static_cast<int>(bounds.columns());
