@@ -46,7 +46,12 @@ Result<Thresholds> read_thresholds(const io::YamlNode& map) {
   return thresholds;
 }
 
+/// What map_saver writes for an unknown cell. With Nav2's default free_thresh of 0.25 map_server
+/// would take it for free, and a whole site for one room.
+constexpr std::uint8_t kSavedUnknown = 205;
+
 Rgb class_of(std::uint8_t grey, const Thresholds& thresholds) {
+  if (grey == kSavedUnknown && !thresholds.negate) return kOutside;
   const double occupancy = (thresholds.negate ? grey : 255 - grey) / 255.0;
   if (occupancy > thresholds.occupied) return kWall;
   return occupancy < thresholds.free ? kFloor : kOutside;

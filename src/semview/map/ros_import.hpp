@@ -13,7 +13,8 @@ struct RosImportConfig {
 };
 
 /// Reads a map_server YAML with its PGM or PNG and writes a bundle into `directory`: occupied cells
-/// become wall, free ones floor, unknown ones outside.
+/// become wall, free ones floor, unknown ones outside; the grey 205 that map_saver writes for
+/// unknown is unknown whatever the thresholds.
 /// @errors kNotFound, kInvalidArgument: the map; kAlreadyExists: `directory` holds a map already.
 Status import_ros_map(const std::filesystem::path& map_yaml,
                       const std::filesystem::path& directory,
