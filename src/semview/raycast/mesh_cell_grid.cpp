@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "semview/map/map_limits.hpp"
 #include "semview/raycast/ray_caster.hpp"
 
 namespace semview::raycast {
