@@ -13,5 +13,6 @@ void add_map_check(CLI::App& map, int& exit_code);
 void add_map_info(CLI::App& map, int& exit_code);
 void add_map_pictures(CLI::App& map, int& exit_code);  ///< preview, occupancy
 void add_map_import(CLI::App& map, int& exit_code);
+void add_map_export(CLI::App& map, int& exit_code);
 
 }  // namespace semview::cli
