@@ -14,6 +14,7 @@
 #include "semview/map/extrusion.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/embree_view_source.hpp"
+#include "semview/raycast/mesh_cell_grid.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
 #include "semview/raycast/scene.hpp"
@@ -50,11 +51,13 @@ Result<raycast::Scene> build_scene(const map::SemanticMap& map) {
   return raycast::Scene::build(map::extrude(*map.columns()));
 }
 
-Result<map::CellGrid> build_cells(const map::SemanticMap& map, double eye_height_m) {
+Result<map::CellGrid> build_cells(const map::SemanticMap& map,
+                                  const raycast::Scene& scene,
+                                  double eye_height_m) {
   if (const map::ColumnMap* columns = map.columns()) {
     return map::build_cell_grid(*columns, eye_height_m);
   }
-  return fail(ErrorCode::kUnimplemented, "views of mesh maps are not served yet");
+  return raycast::build_cell_grid(scene, map.ground_height_m, eye_height_m);
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
   Result<raycast::Scene> scene = build_scene(parts->map);
   if (!scene) return with_context(std::move(scene), path.string());
   parts->scene = std::make_shared<const raycast::Scene>(*std::move(scene));
-  SEMVIEW_TRY(parts->cells, build_cells(parts->map, config.profile.eye_height_m));
+  SEMVIEW_TRY(parts->cells, build_cells(parts->map, *parts->scene, config.profile.eye_height_m));
   parts->engine = {std::string(raycast::kEngineName),
                    raycast::kEngineVersion,
                    config.engine == "auto" ? "it serves every map" : "it was asked for"};
