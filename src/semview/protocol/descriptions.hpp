@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "semview/core/hash.hpp"
+#include "semview/core/result.hpp"
 #include "semview/geometry/image.hpp"
 #include "semview/geometry/pose_grid.hpp"
 #include "semview/semantics/class_table.hpp"
@@ -41,18 +42,25 @@ struct MapDescription {
   bool operator==(const MapDescription&) const = default;
 };
 
-enum class JobState : std::uint8_t { kRunning = 1, kDone = 2, kFailed = 3, kCancelled = 4 };
+enum class JobState : std::uint8_t {
+  kQueued = 1,
+  kRunning = 2,
+  kDone = 3,
+  kFailed = 4,
+  kCancelled = 5
+};
 
 /// How far a long job of the server is.
 struct JobProgress {
   std::string job_id;
-  JobState state = JobState::kRunning;
-  std::uint64_t done_cells = 0;
+  std::string map_id;
+  JobState state = JobState::kQueued;
   std::uint64_t total_cells = 0;
+  std::uint64_t found_cells = 0;  ///< stored by an earlier run
+  std::uint64_t cast_cells = 0;   ///< by this one
   double elapsed_s = 0.0;
-  std::string error;  ///< `kFailed`: why
-
-  bool operator==(const JobProgress&) const = default;
+  double remaining_s = 0.0;    ///< estimate; 0 until something was cast
+  std::optional<Error> error;  ///< `kFailed`: why
 };
 
 }  // namespace semview::protocol
