@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The queue between the I/O thread and the workers.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace semview::server {
+
+/// A piece of work and what it is reckoned to cost.
+struct Task {
+  std::uint64_t cells = 1;  ///< estimate, at least 1: views to score, cast or send
+  std::function<void()> run;
+};
+
+/// Gives every client the same share of the workers, measured in cells and not in requests.
+///
+/// Each client has a first-in-first-out queue. `pop` takes the next task of the client that has had
+/// the least work; one that comes back from idling has no credit for the time away. So a client
+/// with one small request waits for one task of each other client at most, whatever they have
+/// queued.
+/// @threads All members from several threads at once.
+class FairQueue {
+ public:
+  /// False, and the task is not taken, if the queue is closed.
+  bool push(const std::string& client, Task task);
+
+  /// The next task in turn; waits for one. `nullopt` once the queue is closed and empty.
+  std::optional<Task> pop();
+
+  /// No more tasks come in; those inside are still given out.
+  void close();
+
+  std::uint64_t queued_cells() const;
+
+ private:
+  struct Client {
+    std::deque<Task> tasks;
+    std::uint64_t served = 0;  ///< virtual time: cells given out, level with others at arrival
+  };
+  /// (served, client): the first is next.
+  using Turns = std::map<std::pair<std::uint64_t, std::string>, Client*>;
+
+  mutable std::mutex mutex_;
+  std::condition_variable has_task_;
+  std::unordered_map<std::string, Client> clients_;  ///< those with a task waiting
+  Turns turns_;
+  std::uint64_t now_ = 0;  ///< `served` of the client that was last in turn
+  /// `served` of clients whose queue ran empty, while it is ahead of `now_`.
+  std::unordered_map<std::string, std::uint64_t> ahead_;
+  std::uint64_t queued_cells_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace semview::server

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "options.hpp"
+#include "semview/core/log.hpp"
+#include "semview/core/version.hpp"
+#include "semview/map/cell_grid.hpp"
+#include "semview/map/semantic_map.hpp"
+
+namespace semview::server {
+namespace {
+
+constexpr const char* kFooter = R"(Example:
+  semview-server --map maps/duplex_level1 --map attic=maps/duplex_level2 --cache /var/cache/semview
+
+Prints one line "listening on tcp://ADDRESS:PORT" on standard output when requests can come in;
+the log goes to standard error. SIGTERM or SIGINT answers what is inside, then exits with 0.
+Protocol: docs/protocol.md.)";
+
+/// Options as given; those not given leave the configuration file's value.
+struct CommandLine {
+  std::vector<std::string> maps;
+  std::string config;
+  std::optional<std::string> bind;
+  std::optional<std::string> cache;
+  std::optional<std::uint64_t> cache_limit_bytes;
+  std::optional<std::uint64_t> memory_bytes;
+  std::optional<std::size_t> threads;
+  std::optional<double> eye_height_m;
+  std::optional<std::string> engine;
+  bool nearest_colour = false;
+};
+
+void add_options(CLI::App& app, CommandLine& line) {
+  app.add_option("--map", line.maps, "[ID=]FOLDER or [ID=]FILE.glb; several may be given");
+  app.add_option("--config", line.config, "server.yaml: the same options and the limits");
+  app.add_option("--bind",
+                 line.bind,
+                 "tcp://ADDRESS:PORT (default tcp://127.0.0.1:5560; * as port "
+                 "takes any free one)");
+  app.add_option("--cache", line.cache, "folder that keeps views between runs");
+  app.add_option("--cache-limit", line.cache_limit_bytes, "largest size of that folder, e.g. 10GB")
+      ->transform(CLI::AsSizeValue(false));
+  app.add_option("--memory", line.memory_bytes, "views kept in memory, e.g. 512MB (the default)")
+      ->transform(CLI::AsSizeValue(false));
+  app.add_option("--threads", line.threads, "workers (default: one a core)");
+  app.add_option("--eye-height", line.eye_height_m, "camera above the ground in m (default 1.2)");
+  app.add_option("--engine", line.engine, "auto or embree");
+  app.add_flag("--nearest-colour", line.nearest_colour, "accept plans with smoothed edges");
+}
+
+Result<Options> options_of(const CommandLine& line) {
+  Options options;
+  if (!line.config.empty()) SEMVIEW_TRY_STATUS(read_config(line.config, &options));
+  for (const std::string& map : line.maps) options.maps.push_back(parse_map_option(map));
+  if (line.bind) options.server.bind = *line.bind;
+  if (line.cache) options.site.cache_directory = *line.cache;
+  if (line.cache_limit_bytes) options.site.cache_limit_bytes = *line.cache_limit_bytes;
+  if (line.memory_bytes) options.site.memory_bytes = *line.memory_bytes;
+  if (line.threads) options.site.threads = *line.threads;
+  if (line.eye_height_m) options.site.profile.eye_height_m = *line.eye_height_m;
+  if (line.engine) options.site.engine = *line.engine;
+  options.site.nearest_colour = options.site.nearest_colour || line.nearest_colour;
+  options.server.workers = options.site.threads;
+  if (options.maps.empty()) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      "no map given",
+                      "--map",
+                      "for example: semview-server --map maps/duplex_level1"});
+  }
+  SEMVIEW_TRY_STATUS(service::validate(options.site));
+  return options;
+}
+
+Result<service::MapRegistry> open_maps(const Options& options) {
+  SEMVIEW_TRY(const service::SharedTiers tiers, service::SharedTiers::open(options.site));
+  service::MapRegistry maps;
+  for (const MapOption& option : options.maps) {
+    SEMVIEW_TRY(std::shared_ptr<service::Site> site,
+                service::Site::open(option.path, option.id, options.site, tiers));
+    log_info(fmt::format("map {} ({}): {} classes, {} free cells, engine {} ({}), fingerprint {}",
+                         site->id(),
+                         site->map().name,
+                         site->map().classes.size(),
+                         site->cells().free_count(),
+                         site->engine().name,
+                         site->engine().reason,
+                         to_hex(site->map().fingerprint)));
+    SEMVIEW_TRY_STATUS(maps.add(std::move(site)));
+  }
+  return maps;
+}
+
+std::uint64_t new_epoch() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32U | device()) | 1U;
+}
+
+/// Serves until a signal comes; blocked in all threads, it is taken here.
+Status serve(const CommandLine& line) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+
+  SEMVIEW_TRY(Options options, options_of(line));
+  SEMVIEW_TRY(service::MapRegistry maps, open_maps(options));
+  options.server.epoch = new_epoch();
+  SEMVIEW_TRY(const std::unique_ptr<Server> server, Server::start(options.server, std::move(maps)));
+  if (!is_loopback(server->endpoint())) {
+    log_warning(
+        fmt::format("{} can be reached from other machines, and there is no authentication "
+                    "yet: use it in trusted networks only",
+                    server->endpoint()));
+  }
+  if (!server->events_endpoint().empty()) {
+    log_info(fmt::format("events on {}", server->events_endpoint()));
+  }
+  fmt::print("listening on {}\n", server->endpoint());
+  std::fflush(stdout);
+
+  int signal = 0;
+  sigwait(&signals, &signal);
+  log_info(fmt::format("{}: answering what is inside, then leaving",
+                       signal == SIGTERM ? "SIGTERM" : "SIGINT"));
+  const bool answered = server->drain(std::chrono::seconds(options.drain_s));
+  if (!answered) log_warning("some requests were not answered in time");
+  return {};
+}
+
+}  // namespace
+}  // namespace semview::server
+
+int main(int argc, char** argv) {
+  constexpr int kFailed = 1;
+  constexpr int kUsage = 2;
+  try {
+    CLI::App app{"semview-server: views and scores of semantic maps over ZeroMQ", "semview-server"};
+    app.set_version_flag("--version", semview::kVersion);
+    app.footer(semview::server::kFooter);
+    semview::server::CommandLine line;
+    semview::server::add_options(app, line);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : kUsage;
+    }
+    const semview::Status status = semview::server::serve(line);
+    if (status) return 0;
+    const semview::Error& error = status.error();
+    fmt::print(stderr, "semview-server: {}\n", error.message);
+    if (!error.hint.empty()) fmt::print(stderr, "  {}\n", error.hint);
+    return error.field.starts_with("--") ? kUsage : kFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "semview-server: internal error: {}\n", error.what());
+    return kFailed;
+  }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fair_queue.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace semview::server {
+namespace {
+
+/// Tasks that write down whose they were.
+class FairQueueTest : public testing::Test {
+ protected:
+  void push(const std::string& client, std::uint64_t cells, int count = 1) {
+    for (int i = 0; i < count; ++i) {
+      ASSERT_TRUE(queue_.push(client, {cells, [this, client] { served_.push_back(client); }}));
+    }
+  }
+  void serve(int count) {
+    for (int i = 0; i < count; ++i) queue_.pop()->run();
+  }
+
+  FairQueue queue_;
+  std::vector<std::string> served_;
+};
+
+TEST_F(FairQueueTest, OneClientIsServedInTheOrderOfItsTasks) {
+  std::vector<int> order;
+  for (int i = 0; i < 5; ++i) queue_.push("a", {1, [&order, i] { order.push_back(i); }});
+  serve(5);
+  EXPECT_EQ(order, (std::vector{0, 1, 2, 3, 4}));
+}
+
+TEST_F(FairQueueTest, ClientsWithEqualTasksTakeTurns) {
+  push("a", 64, 4);
+  push("b", 64, 2);
+  serve(4);
+  EXPECT_EQ(served_, (std::vector<std::string>{"a", "b", "a", "b"}));
+}
+
+TEST_F(FairQueueTest, SharesAreOfWorkAndNotOfTasks) {
+  push("big", 64, 100);
+  push("small", 1, 1000);
+  std::map<std::string, int> cells;
+  for (int i = 0; i < 660; ++i) {
+    const auto task = queue_.pop();
+    task->run();
+    cells[served_.back()] += static_cast<int>(task->cells);
+  }
+  EXPECT_NEAR(cells["big"], cells["small"], 64);
+}
+
+TEST_F(FairQueueTest, ANewcomerWaitsForOneTaskAtMost) {
+  push("greedy", 64, 100);
+  serve(50);
+  push("robot", 1);
+  serve(2);
+  EXPECT_TRUE(served_[50] == "robot" || served_[51] == "robot");
+}
+
+TEST_F(FairQueueTest, IdlingGivesNoCredit) {
+  push("a", 64, 100);
+  push("b", 64, 1);
+  serve(60);
+  push("b", 64, 30);
+  served_.clear();
+  serve(20);
+  EXPECT_NEAR(static_cast<double>(std::count(served_.begin(), served_.end(), "b")), 10.0, 1.0);
+}
+
+TEST_F(FairQueueTest, ComingBackAtOnceGivesNoSecondTurn) {
+  // A client that always has one task only must not be first each time.
+  push("many", 64, 100);
+  push("one", 64);
+  for (int i = 0; i < 40; ++i) {
+    serve(1);
+    if (served_.back() == "one") push("one", 64);
+  }
+  EXPECT_NEAR(static_cast<double>(std::count(served_.begin(), served_.end(), "one")), 20.0, 1.0);
+}
+
+TEST_F(FairQueueTest, QueuedCellsAreThoseWaiting) {
+  push("a", 10, 2);
+  push("b", 5);
+  EXPECT_EQ(queue_.queued_cells(), 25U);
+  serve(3);
+  EXPECT_EQ(queue_.queued_cells(), 0U);
+}
+
+TEST_F(FairQueueTest, AClosedQueueGivesOutWhatIsInsideAndThenEnds) {
+  push("a", 1, 2);
+  queue_.close();
+  EXPECT_FALSE(queue_.push("a", {1, [] {}}));
+  EXPECT_TRUE(queue_.pop());
+  EXPECT_TRUE(queue_.pop());
+  EXPECT_FALSE(queue_.pop());
+}
+
+TEST_F(FairQueueTest, ManyThreadsServeEachTaskOnce) {
+  std::atomic<int> done{0};
+  std::vector<std::thread> workers;
+  for (int i = 0; i < 4; ++i) {
+    workers.emplace_back([this] {
+      while (auto task = queue_.pop()) task->run();
+    });
+  }
+  for (int i = 0; i < 1000; ++i) {
+    queue_.push("client" + std::to_string(i % 7), {1, [&done] { ++done; }});
+  }
+  queue_.close();
+  for (std::thread& worker : workers) worker.join();
+  EXPECT_EQ(done, 1000);
+}
+
+}  // namespace
+}  // namespace semview::server
