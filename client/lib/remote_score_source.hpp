@@ -46,7 +46,6 @@ class RemoteScoreSource final : public ScoreSource {
   const std::string weights_csv_;
   std::optional<std::string> observation_body_;  ///< as sent, to repeat it
   std::string observation_id_;                   ///< empty: the server does not have it
-  std::uint64_t observation_epoch_ = 0;
 };
 
 }  // namespace semview::client

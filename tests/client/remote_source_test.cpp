@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/client_fixture.hpp"
+#include "client/lib/remote_score_source.hpp"
+#include "client/lib/remote_view_source.hpp"
+#include "semview/map/cell_grid.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "semview/similarity/similarity_score_source.hpp"
+
+namespace semview::test {
+namespace {
+
+using client::RemoteScoreSource;
+using client::RemoteViewSource;
+
+class RemoteSourceTest : public ClientFixture {
+ protected:
+  similarity::WeightMatrix weights() const {
+    return similarity::WeightMatrix::identity(site_->map().classes);
+  }
+  Observation observation() const { return observation_at(*site_, {2.0, 1.0, 0.5}); }
+
+  ScoreBatch in_process(const ScoreRequest& request) const {
+    similarity::SimilarityScoreSource source(
+        site_->views(), site_->map().classes, weights(), site_->pool());
+    EXPECT_TRUE(source.set_observation(observation()));
+    auto batch = source.score(request);
+    EXPECT_TRUE(batch);
+    return *std::move(batch);
+  }
+
+  static void expect_equal(const ScoreBatch& a, const ScoreBatch& b) {
+    EXPECT_EQ(a.weight_scale, b.weight_scale);
+    EXPECT_EQ(a.observed_pixels, b.observed_pixels);
+    EXPECT_EQ(a.sums, b.sums);
+    EXPECT_EQ(a.best_heading, b.best_heading);
+    EXPECT_EQ(a.curve, b.curve);
+  }
+};
+
+TEST_F(RemoteSourceTest, ViewsAreThoseOfTheSite) {
+  const auto source = RemoteViewSource::open(config(), "room");
+  ASSERT_TRUE(source) << source.error().message;
+  EXPECT_EQ((*source)->profile(), site_->profile());
+  std::vector<CellIndex> cells = site_->cells().free_cells();
+  cells.push_back({-100, -100});
+  cells.push_back(cells.front());
+  const auto remote = (*source)->views(cells);
+  const auto local = site_->views().views(cells);
+  ASSERT_TRUE(remote) << remote.error().message;
+  ASSERT_TRUE(local);
+  ASSERT_EQ(remote->views.size(), cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    ASSERT_EQ(remote->views[i] == nullptr, local->views[i] == nullptr);
+    if (remote->views[i] == nullptr) continue;
+    EXPECT_EQ(*remote->views[i], *local->views[i]);
+  }
+}
+
+TEST_F(RemoteSourceTest, ScoresAreThoseOfTheSourceInProcess) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE(source) << source.error().message;
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  for (const bool curve : {false, true}) {
+    const ScoreRequest request{many_poses(2000), HeadingMode::kCompass, curve};
+    const auto remote = (*source)->score(request);
+    ASSERT_TRUE(remote) << remote.error().message;
+    expect_equal(*remote, in_process(request));
+  }
+  const ScoreRequest request{many_poses(2000), HeadingMode::kAsGiven, false};
+  const auto remote = (*source)->score(request);
+  ASSERT_TRUE(remote);
+  expect_equal(*remote, in_process(request));
+}
+
+TEST_F(RemoteSourceTest, ScoringBeforeAnObservationIsAFailedPrecondition) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE(source);
+  EXPECT_EQ((*source)->score({many_poses(1)}).error().code, ErrorCode::kFailedPrecondition);
+}
+
+TEST_F(RemoteSourceTest, AnObservationOfAnotherShapeIsRefused) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  Observation wrong = observation();
+  wrong.labels = LabelImage(10, 10, 1);
+  EXPECT_EQ((*source)->set_observation(wrong).error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST_F(RemoteSourceTest, AfterARestartTheObservationIsSentAgain) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  const ScoreRequest request{many_poses(50), HeadingMode::kCompass, false};
+  stop();
+  start();
+  const auto remote = (*source)->score(request);
+  ASSERT_TRUE(remote) << remote.error().message;
+  expect_equal(*remote, in_process(request));
+}
+
+TEST_F(RemoteSourceTest, AnObservationDroppedForOthersIsSentAgain) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  const ScoreRequest request{many_poses(5), HeadingMode::kCompass, false};
+  const ScoreBatch expected = in_process(request);
+  // Enough others to push it out.
+  for (std::size_t sent = 0; sent < service::Limits{}.max_observations; ++sent) {
+    if (sent % service::Limits{}.max_observations_per_client == 0) {
+      const auto other = RemoteScoreSource::open(config(), "room", weights());
+      for (std::size_t i = 0; i < service::Limits{}.max_observations_per_client; ++i) {
+        ASSERT_TRUE((*other)->set_observation(observation()));
+      }
+    }
+  }
+  const auto remote = (*source)->score(request);
+  ASSERT_TRUE(remote) << remote.error().message;
+  expect_equal(*remote, expected);
+}
+
+TEST_F(RemoteSourceTest, WithoutAServerCallsFailAndLaterOnesRecover) {
+  const auto source = RemoteScoreSource::open(config(200), "room", weights());
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  const ScoreRequest request{many_poses(50), HeadingMode::kCompass, false};
+  stop();
+  EXPECT_EQ((*source)->score(request).error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ((*source)->set_observation(observation()).error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ((*source)->score(request).error().code, ErrorCode::kUnavailable);
+  start();
+  Result<ScoreBatch> remote = fail(ErrorCode::kUnknown, "");
+  for (int i = 0; i < 100 && !remote; ++i) remote = (*source)->score(request);
+  ASSERT_TRUE(remote) << remote.error().message;
+  expect_equal(*remote, in_process(request));
+}
+
+TEST_F(RemoteSourceTest, AServerWithAnotherMapUnderTheIdIsNoticed) {
+  const auto scores = RemoteScoreSource::open(config(), "room", weights());
+  const auto views = RemoteViewSource::open(config(), "room");
+  ASSERT_TRUE((*scores)->set_observation(observation()));
+  stop();
+  site_ = open_site(write_room(folder_.path(), "changed", 2.5), "room");
+  start();
+  EXPECT_EQ((*scores)->score({many_poses(5)}).error().field, "fingerprint");
+  EXPECT_EQ((*scores)->set_observation(observation()).error().field, "fingerprint");
+  EXPECT_EQ((*views)->views(std::vector<CellIndex>{{5, 5}}).error().code,
+            ErrorCode::kFailedPrecondition);
+}
+
+}  // namespace
+}  // namespace semview::test
