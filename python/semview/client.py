@@ -1,0 +1,349 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Maps, views, scores and jobs as Python objects and numpy arrays."""
+import time
+from dataclasses import dataclass
+from typing import List, Optional
+
+import numpy as np
+
+from .connection import Connection, SemviewError
+from .v1 import envelope_pb2, jobs_pb2, maps_pb2, scores_pb2, views_pb2
+
+NO_VIEW = -(2**31)  # the sum of a pose that has no view
+UNKNOWN = 255  # in observations: not seen or undecided, never scored
+HEADINGS = 120
+
+
+def connect(endpoint="tcp://127.0.0.1:5560", timeout_s=30.0, client_name="python"):
+    """A Server; raises SemviewError if none answers."""
+    server = Server(Connection(endpoint, timeout_s, client_name))
+    try:
+        server.hello()
+    except SemviewError:
+        server.close()
+        raise
+    return server
+
+
+@dataclass
+class View:
+    """labels: uint8 class ids, rows × columns, 0 = nothing hit; None where the cell has no view.
+    ranges_m: float32 of the same shape (pinholes: depth), +inf = nothing hit; None unless asked."""
+
+    labels: Optional[np.ndarray]
+    ranges_m: Optional[np.ndarray] = None
+
+
+@dataclass
+class Scores:
+    """sums: int32, one a pose, or NO_VIEW. similarity: float64, NaN where there is no view.
+    best_yaw_rad: compass only. curve: similarity of all 120 headings, compass with `curve`."""
+
+    sums: np.ndarray
+    similarity: np.ndarray
+    best_yaw_rad: Optional[np.ndarray]
+    curve: Optional[np.ndarray]
+    origins: dict
+
+
+@dataclass
+class HeatMap:
+    """similarity: float32, row 0 = lowest y, NaN = not free. Cell (row 0, column 0) has its
+    lower left corner at (x_m, y_m); cells are `step_m` apart."""
+
+    similarity: np.ndarray
+    best_yaw_rad: np.ndarray
+    x_m: float
+    y_m: float
+    step_m: float = 0.1
+
+    def best(self):
+        """(x, y, yaw) of the highest similarity, at the centre of its cell."""
+        row, column = np.unravel_index(np.nanargmax(self.similarity), self.similarity.shape)
+        return (
+            self.x_m + (column + 0.5) * self.step_m,
+            self.y_m + (row + 0.5) * self.step_m,
+            float(self.best_yaw_rad[row, column]),
+        )
+
+
+def _poses(poses):
+    """Packed lists of an (n, 3) array of x, y, yaw."""
+    array = np.atleast_2d(np.asarray(poses, dtype=np.float64))
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"poses of shape {array.shape}; expected (n, 3): x, y, yaw")
+    return views_pb2.Poses(x_m=array[:, 0], y_m=array[:, 1], yaw_rad=array[:, 2])
+
+
+def _similarity(sums, scale, pixels):
+    similarity = sums / (float(scale) * float(pixels))
+    similarity[sums == NO_VIEW] = np.nan
+    return similarity
+
+
+def _labels_of_runs(runs, rows, columns):
+    """Runs stand column by column: repeating each label by its run's length gives the transpose."""
+    ends = np.fromiter(runs.end_rows, np.int64, len(runs.end_rows))
+    starts = np.empty_like(ends)
+    starts[1:] = ends[:-1]
+    starts[:1] = 0
+    starts[starts == rows] = 0
+    labels = np.repeat(np.frombuffer(runs.labels, np.uint8), ends - starts)
+    return np.ascontiguousarray(labels.reshape(columns, rows).T)
+
+
+def _view(wire, rows, columns):
+    if wire.no_view:
+        return View(None)
+    if wire.HasField("runs"):
+        labels = _labels_of_runs(wire.runs, rows, columns)
+    else:
+        labels = np.frombuffer(wire.labels, np.uint8).reshape(rows, columns)
+    ranges = None
+    if wire.ranges_m:
+        ranges = np.fromiter(wire.ranges_m, np.float32, rows * columns).reshape(rows, columns)
+    return View(labels, ranges)
+
+
+class Server:
+    """A running semview-server."""
+
+    def __init__(self, connection):
+        self.connection = connection
+
+    def hello(self):
+        """Version, methods and limits, as the message HelloReply."""
+        return self.connection.call("Hello", envelope_pb2.HelloRequest(), envelope_pb2.HelloReply)
+
+    def maps(self) -> List[str]:
+        """The ids of the maps."""
+        reply = self.connection.call(
+            "ListMaps", maps_pb2.ListMapsRequest(), maps_pb2.ListMapsReply
+        )
+        return [entry.id for entry in reply.maps]
+
+    def map(self, map_id) -> "Map":
+        return Map(self.connection, map_id)
+
+    def stats(self):
+        """Counts since the server's start, as the message GetStatsReply."""
+        return self.connection.call("GetStats", jobs_pb2.GetStatsRequest(), jobs_pb2.GetStatsReply)
+
+    def close(self):
+        self.connection.close()
+
+
+class Map:
+    """One map of a server.
+
+    id, name, fingerprint (hex), classes (names, the first has id 1), rows and columns of a view,
+    elevation_min_rad, elevation_max_rad, eye_height_m, engine, free_cells: (n, 2) int32 of ix, iy.
+    """
+
+    def __init__(self, connection, map_id):
+        self._connection = connection
+        reply = connection.call("GetMap", maps_pb2.GetMapRequest(map_id=map_id), maps_pb2.GetMapReply)
+        self._fingerprint = reply.summary.fingerprint
+        self.id = reply.summary.id
+        self.name = reply.summary.name
+        self.fingerprint = reply.summary.fingerprint.hex()
+        self.classes = [entry.name for entry in reply.classes]
+        self.colors = [tuple(entry.color_rgb) or None for entry in reply.classes]
+        self.rows = reply.profile.rows
+        self.columns = reply.profile.columns
+        self.elevation_min_rad = reply.profile.elevation_min_rad
+        self.elevation_max_rad = reply.profile.elevation_max_rad
+        self.eye_height_m = reply.profile.eye_height_m
+        self.ground_height_m = reply.ground_height_m
+        self.engine = reply.engine
+        runs = reply.free_cells
+        self.free_cells = np.array(
+            [
+                (ix + k, iy)
+                for iy, ix, length in zip(runs.iy, runs.ix, runs.length)
+                for k in range(length)
+            ],
+            dtype=np.int32,
+        ).reshape(-1, 2)
+
+    def class_name(self, class_id):
+        if class_id == 0:
+            return "none"
+        return self.classes[class_id - 1] if class_id <= len(self.classes) else "unknown"
+
+    def glb(self) -> bytes:
+        """The map's mesh as binary glTF."""
+        request = maps_pb2.GetMapRequest(map_id=self.id, with_glb=True)
+        return self._connection.call("GetMap", request, maps_pb2.GetMapReply).glb
+
+    def views(self, poses, exact=False, ranges=False) -> List[View]:
+        """The panorama at each pose (x, y, yaw).
+
+        exact   cast at the pose itself; otherwise the stored view of its 10 cm cell, turned to
+                its heading on the 3° grid
+        ranges  also metres along each ray; implies `exact`
+        """
+        request = views_pb2.GetViewsRequest(map_id=self.id, fingerprint=self._fingerprint)
+        if exact or ranges:
+            request.panoramas.poses.CopyFrom(_poses(poses))
+        else:
+            request.poses.CopyFrom(_poses(poses))
+        return self._views(request, ranges)
+
+    def pinhole_views(
+        self, poses, columns, rows, fx_px, fy_px, cx_px, cy_px, eye_height_m=0.0, depths=False
+    ) -> List[View]:
+        """What a level pinhole camera sees at each pose, looking along its yaw."""
+        request = views_pb2.GetViewsRequest(map_id=self.id, fingerprint=self._fingerprint)
+        request.pinholes.CopyFrom(
+            views_pb2.ExactPinholes(
+                poses=_poses(poses),
+                columns=columns,
+                rows=rows,
+                fx_px=fx_px,
+                fy_px=fy_px,
+                cx_px=cx_px,
+                cy_px=cy_px,
+                eye_height_m=eye_height_m,
+            )
+        )
+        return self._views(request, depths)
+
+    def _views(self, request, ranges):
+        request.with_ranges = ranges
+        reply = self._connection.call("GetViews", request, views_pb2.GetViewsReply)
+        return [_view(view, reply.rows, reply.columns) for view in reply.views]
+
+    def set_observation(self, labels, classes=None, weights_csv="") -> "Observation":
+        """What a camera saw, to score poses against.
+
+        labels       (rows, columns) ids of `classes`; UNKNOWN and 0 are not scored
+        classes      the observer's class names, the first has id 1; None: the map's own
+        weights_csv  a weight matrix (docs/formats/weights.md); "" gives 1 for equal names, else 0
+        """
+        return Observation(self, labels, self.classes if classes is None else classes, weights_csv)
+
+    def precompute(self, region=None, reachable_from=None) -> "Job":
+        """Starts to cast and store the views of all free cells, or of a part.
+
+        region          (x_min, y_min, x_max, y_max)
+        reachable_from  (x, y)
+        """
+        request = jobs_pb2.StartPrecomputeRequest(map_id=self.id, fingerprint=self._fingerprint)
+        if region is not None:
+            x_min, y_min, x_max, y_max = region
+            request.region.CopyFrom(
+                scores_pb2.Region(x_min_m=x_min, y_min_m=y_min, x_max_m=x_max, y_max_m=y_max)
+            )
+        if reachable_from is not None:
+            request.reachable_from.x_m, request.reachable_from.y_m = reachable_from
+        reply = self._connection.call(
+            "StartPrecompute", request, jobs_pb2.StartPrecomputeReply
+        )
+        return Job(self._connection, reply.job_id)
+
+
+class Observation:
+    """An observation that the server holds; sent again by itself when the server has lost it."""
+
+    def __init__(self, of_map, labels, classes, weights_csv):
+        array = np.ascontiguousarray(labels, dtype=np.uint8)
+        if array.shape != (of_map.rows, of_map.columns):
+            raise ValueError(
+                f"labels of shape {array.shape}; expected {(of_map.rows, of_map.columns)}"
+            )
+        self._map = of_map
+        self._request = scores_pb2.SetObservationRequest(
+            map_id=of_map.id,
+            fingerprint=of_map._fingerprint,
+            class_names=classes,
+            rows=array.shape[0],
+            columns=array.shape[1],
+            labels=array.tobytes(),
+            weights_csv=weights_csv,
+        )
+        self._send()
+
+    def _send(self):
+        reply = self._map._connection.call(
+            "SetObservation", self._request, scores_pb2.SetObservationReply
+        )
+        self._id = reply.observation_id
+        self.observed_pixels = reply.observed_pixels
+
+    def _call(self, method, request, reply_type, timeout_s=None):
+        request.map_id = self._map.id
+        request.fingerprint = self._map._fingerprint
+        request.observation_id = self._id
+        try:
+            return self._map._connection.call(method, request, reply_type, timeout_s)
+        except SemviewError as error:
+            if error.code != "NOT_FOUND" or error.field != "observation_id":
+                raise
+        self._send()
+        request.observation_id = self._id
+        return self._map._connection.call(method, request, reply_type, timeout_s)
+
+    def score(self, poses, compass=False, curve=False) -> Scores:
+        """The similarity at each pose (x, y, yaw); `compass` tries all 120 headings."""
+        mode = scores_pb2.HEADING_MODE_COMPASS if compass else scores_pb2.HEADING_MODE_AS_GIVEN
+        request = scores_pb2.ScoreRequest(poses=_poses(poses), mode=mode, whole_curve=curve)
+        reply = self._call("Score", request, scores_pb2.ScoreReply)
+        sums = np.array(reply.sums, dtype=np.int32)
+        scale = (reply.weight_scale, reply.observed_pixels)
+        headings = np.frombuffer(reply.best_headings, np.uint8)
+        return Scores(
+            sums=sums,
+            similarity=_similarity(sums, *scale),
+            best_yaw_rad=np.deg2rad(headings * 3.0) if compass else None,
+            curve=_similarity(np.array(reply.curve, dtype=np.int32), *scale).reshape(-1, HEADINGS)
+            if curve
+            else None,
+            origins={name: getattr(reply.origins, name) for name in ("memory", "disk", "cast")},
+        )
+
+    def heat_map(self, region=None, headings=HEADINGS, timeout_s=600.0) -> HeatMap:
+        """The best similarity of each free cell of the map, or of a region."""
+        request = scores_pb2.HeatmapRequest(headings=headings)
+        if region is not None:
+            x_min, y_min, x_max, y_max = region
+            request.region.CopyFrom(
+                scores_pb2.Region(x_min_m=x_min, y_min_m=y_min, x_max_m=x_max, y_max_m=y_max)
+            )
+        reply = self._call("Heatmap", request, scores_pb2.HeatmapReply, timeout_s)
+        shape = (reply.rows, reply.columns)
+        best = np.frombuffer(reply.best_headings, np.uint8).reshape(shape)
+        return HeatMap(
+            similarity=np.array(reply.similarity, dtype=np.float32).reshape(shape),
+            best_yaw_rad=np.where(best == 255, np.nan, np.deg2rad(best * 3.0)),
+            x_m=reply.origin_ix * 0.1,
+            y_m=reply.origin_iy * 0.1,
+        )
+
+
+class Job:
+    """A long job of the server."""
+
+    def __init__(self, connection, job_id):
+        self._connection = connection
+        self.id = job_id
+
+    def status(self):
+        """How far it is, as the message JobStatusReply."""
+        request = jobs_pb2.JobStatusRequest(job_id=self.id)
+        return self._connection.call("JobStatus", request, jobs_pb2.JobStatusReply)
+
+    def progress(self, interval_s=0.2):
+        """Yields statuses until the job has ended, the last one included; raises if it failed."""
+        while True:
+            status = self.status()
+            yield status
+            if status.state == jobs_pb2.JOB_STATE_FAILED:
+                raise SemviewError("ABORTED", status.error.message, hint=status.error.hint)
+            if status.state in (jobs_pb2.JOB_STATE_DONE, jobs_pb2.JOB_STATE_CANCELLED):
+                return
+            time.sleep(interval_s)
+
+    def cancel(self):
+        request = jobs_pb2.CancelJobRequest(job_id=self.id)
+        self._connection.call("CancelJob", request, jobs_pb2.CancelJobReply)

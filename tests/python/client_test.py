@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: Apache-2.0
+"""python/semview, and the raw examples of the documentation, against the real server process.
+
+Needs in the environment: PYTHONPATH (build/<preset>/python), SEMVIEW_SERVER, SEMVIEW_SOURCE_DIR,
+SEMVIEW_PROTOC.
+"""
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import semview
+
+SOURCE = Path(os.environ["SEMVIEW_SOURCE_DIR"])
+MAP = "duplex_level1"
+
+
+class RunningServer:
+    """semview-server on a free port, with a cache directory of its own."""
+
+    def __init__(self, *arguments):
+        self.folder = tempfile.TemporaryDirectory()
+        self.arguments = arguments
+        self.endpoint = "tcp://127.0.0.1:*"
+        self.start()
+
+    def start(self):
+        self.process = subprocess.Popen(
+            [
+                os.environ["SEMVIEW_SERVER"],
+                "--map",
+                str(SOURCE / "maps" / MAP),
+                "--bind",
+                self.endpoint,
+                "--cache",
+                self.folder.name,
+                *self.arguments,
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        line = self.process.stdout.readline()
+        assert line.startswith("listening on "), line
+        self.endpoint = line.split()[-1]
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        code = self.process.wait(timeout=60)
+        self.process.stdout.close()
+        return code
+
+    def close(self):
+        code = self.stop()
+        self.folder.cleanup()
+        return code
+
+
+class ClientTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.running = RunningServer()
+        cls.server = semview.connect(cls.running.endpoint, timeout_s=60)
+        cls.map = cls.server.map(MAP)
+        # A free cell somewhere in the middle of the list, and its centre.
+        ix, iy = cls.map.free_cells[len(cls.map.free_cells) // 2]
+        cls.pose = ((ix + 0.5) * 0.1, (iy + 0.5) * 0.1, 0.0)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.close()
+        assert cls.running.close() == 0
+
+    def region(self, reach=0.3):
+        x, y, _ = self.pose
+        return (x - reach, y - reach, x + reach, y + reach)
+
+    def test_maps_are_listed_and_described(self):
+        self.assertEqual(self.server.maps(), [MAP])
+        self.assertIn("wall", self.map.classes)
+        self.assertEqual(self.map.class_name(self.map.classes.index("wall") + 1), "wall")
+        self.assertEqual((self.map.rows, self.map.columns), (90, 360))
+        self.assertEqual(len(self.map.fingerprint), 32)
+        self.assertEqual(self.map.glb()[:4], b"glTF")
+
+    def test_grid_and_exact_views_agree_at_a_cells_centre(self):
+        (grid,) = self.map.views([self.pose])
+        (exact,) = self.map.views([self.pose], ranges=True)
+        self.assertEqual(grid.labels.shape, (90, 360))
+        self.assertEqual(grid.labels.dtype, np.uint8)
+        np.testing.assert_array_equal(grid.labels, exact.labels)
+        self.assertEqual(exact.ranges_m.dtype, np.float32)
+        self.assertTrue((exact.ranges_m[exact.labels > 0] < 100.0).all())
+
+    def test_a_heading_is_a_shift_of_columns(self):
+        x, y, _ = self.pose
+        ahead, left = self.map.views([(x, y, 0.0), (x, y, np.pi / 2)])
+        np.testing.assert_array_equal(left.labels, np.roll(ahead.labels, 90, axis=1))
+
+    def test_a_pose_far_away_has_no_view(self):
+        (view,) = self.map.views([(500.0, 500.0, 0.0)])
+        self.assertIsNone(view.labels)
+
+    def test_a_pinhole_looks_along_the_heading(self):
+        (view,) = self.map.pinhole_views([self.pose], 5, 3, 50.0, 50.0, 2.5, 1.5, depths=True)
+        self.assertEqual(view.labels.shape, (3, 5))
+        (panorama,) = self.map.views([self.pose], ranges=True)
+        middle = panorama.ranges_m[44:46, 179:181]
+        self.assertGreaterEqual(view.ranges_m[1, 2], middle.min() - 0.05)
+        self.assertLessEqual(view.ranges_m[1, 2], middle.max() + 0.05)
+
+    def test_an_observation_scores_best_where_it_was_made(self):
+        (view,) = self.map.views([self.pose])
+        observation = self.map.set_observation(view.labels)
+        self.assertEqual(observation.observed_pixels, int((view.labels > 0).sum()))
+        x, y, _ = self.pose
+        scores = observation.score([self.pose, (x + 1.0, y, 0.0), (500.0, 500.0, 0.0)])
+        self.assertAlmostEqual(scores.similarity[0], 1.0)
+        self.assertLess(scores.similarity[1], 1.0)
+        self.assertEqual(scores.sums[2], semview.NO_VIEW)
+        self.assertTrue(np.isnan(scores.similarity[2]))
+
+    def test_the_score_is_the_share_of_equal_pixels(self):
+        """Equation (1) with the identity as weights, written out."""
+        x, y, _ = self.pose
+        (seen,) = self.map.views([self.pose])
+        other = (x + 0.5, y, 0.0)
+        (there,) = self.map.views([other])
+        observation = self.map.set_observation(seen.labels)
+        scored = seen.labels > 0
+        expected = (seen.labels[scored] == there.labels[scored]).mean()
+        self.assertAlmostEqual(observation.score([other]).similarity[0], expected, places=12)
+
+    def test_the_compass_finds_the_heading(self):
+        x, y, _ = self.pose
+        (view,) = self.map.views([(x, y, np.deg2rad(42.0))])
+        observation = self.map.set_observation(view.labels)
+        scores = observation.score([self.pose], compass=True, curve=True)
+        self.assertAlmostEqual(np.rad2deg(scores.best_yaw_rad[0]), 42.0)
+        self.assertEqual(scores.curve.shape, (1, 120))
+        self.assertEqual(int(np.argmax(scores.curve[0])), 14)
+
+    def test_the_heat_map_is_hottest_where_it_was_made(self):
+        (view,) = self.map.views([self.pose])
+        observation = self.map.set_observation(view.labels)
+        heat = observation.heat_map(region=self.region())
+        x, y, yaw = heat.best()
+        self.assertAlmostEqual(x, self.pose[0])
+        self.assertAlmostEqual(y, self.pose[1])
+        self.assertAlmostEqual(yaw, 0.0)
+
+    def test_precompute_tells_its_progress(self):
+        job = self.map.precompute(region=self.region(0.5))
+        statuses = list(job.progress(interval_s=0.02))
+        last = statuses[-1]
+        self.assertEqual(last.found_cells + last.cast_cells, last.total_cells)
+        self.assertGreater(last.total_cells, 0)
+        (view,) = self.map.views([self.pose])
+        self.assertIsNotNone(view.labels)
+        self.assertGreater(self.server.stats().requests, 0)
+
+    def test_errors_name_code_and_field(self):
+        with self.assertRaises(semview.SemviewError) as caught:
+            self.server.map("attic")
+        self.assertEqual((caught.exception.code, caught.exception.field), ("NOT_FOUND", "map_id"))
+        with self.assertRaises(semview.SemviewError) as caught:
+            self.map.views([(float("nan"), 0.0, 0.0)])
+        self.assertEqual(caught.exception.field, "poses.x_m")
+        with self.assertRaises(ValueError):
+            self.map.views([(0.0, 0.0)])
+
+
+class OtherServersTest(unittest.TestCase):
+    def test_nobody_there_is_unavailable(self):
+        with self.assertRaises(semview.SemviewError) as caught:
+            semview.connect("tcp://127.0.0.1:1", timeout_s=0.1)
+        self.assertEqual(caught.exception.code, "UNAVAILABLE")
+
+    def test_an_observation_survives_a_restart(self):
+        running = RunningServer("--eye-height", "1.0")
+        try:
+            server = semview.connect(running.endpoint, timeout_s=60)
+            flat = server.map(MAP)
+            ix, iy = flat.free_cells[0]
+            pose = ((ix + 0.5) * 0.1, (iy + 0.5) * 0.1, 0.0)
+            observation = flat.set_observation(flat.views([pose])[0].labels)
+            before = observation.score([pose], compass=True)
+            self.assertEqual(running.stop(), 0)
+            running.start()
+            after = observation.score([pose], compass=True)
+            np.testing.assert_array_equal(before.sums, after.sums)
+            server.close()
+        finally:
+            self.assertEqual(running.close(), 0)
+
+
+class RawExampleTest(unittest.TestCase):
+    """The examples in the documentation that use nothing of ours but the messages."""
+
+    def run_examples(self, page):
+        if not page.exists():
+            self.skipTest(f"no {page.name}")
+        blocks = re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL)
+        raw = [block for block in blocks if "_pb2" in block]
+        if not raw:
+            self.skipTest(f"{page.name} has no raw example")
+        running = RunningServer()
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                protos = [str(p) for p in (SOURCE / "proto/semview/v1").glob("*.proto")]
+                subprocess.run(
+                    [os.environ["SEMVIEW_PROTOC"], "-I", SOURCE / "proto", f"--python_out={folder}"]
+                    + protos,
+                    check=True,
+                )
+                for block in raw:
+                    code = block.replace("tcp://127.0.0.1:5560", running.endpoint)
+                    done = subprocess.run(
+                        [sys.executable, "-B", "-c", code],
+                        env={**os.environ, "PYTHONPATH": folder},
+                        capture_output=True,
+                        text=True,
+                        timeout=60,
+                    )
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertTrue(done.stdout)
+        finally:
+            self.assertEqual(running.close(), 0)
+
+    def test_protocol_page(self):
+        self.run_examples(SOURCE / "docs/protocol.md")
+
+    def test_readme(self):
+        self.run_examples(SOURCE / "README.md")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
