@@ -33,7 +33,7 @@ Image<std::uint8_t> obstacles(const map::CellGrid& grid) {
 
 double clearance(const Image<std::uint8_t>& blocked, int row, int column) {
   // Outside the grid there is no free cell: its edge is as good as a wall.
-  int nearest = kReach * kReach;
+  int nearest = (kReach + 1) * (kReach + 1);
   for (int dr = -kReach; dr <= kReach; ++dr) {
     for (int dc = -kReach; dc <= kReach; ++dc) {
       const int squared = dr * dr + dc * dc;

@@ -11,7 +11,7 @@ struct SegmentationNoiseConfig {
   double edge_shift_rad =
       0.0175;                   ///< typical distance (1°) between a border as seen and as labelled
   double edge_wave_rad = 0.14;  ///< length over which a border swings from one side to the other
-  double blobs_per_sr = 1.0;    ///< wrong patches a steradian
+  double blobs_per_sr = 2.0;    ///< wrong patches a steradian
   double min_blob_rad = 0.05;   ///< half a patch's width
   double max_blob_rad = 0.20;
   double unknown_share = 0.15;    ///< of the patches: the network does not decide
