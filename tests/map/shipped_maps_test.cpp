@@ -44,9 +44,14 @@ TEST(ShippedMapsTest, AreThoseThatTheReadmeNames) {
   for (const std::filesystem::path& folder : shipped_maps()) {
     names.insert(folder.filename().string());
   }
-  for (const char* name : {"duplex_level1", "duplex_level2", "largebuilding_level1"}) {
+  for (const char* name :
+       {"duplex_building", "duplex_level1", "duplex_level2", "largebuilding_level1", "tutorial"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
+}
+
+TEST(ShippedMapsTest, TheTutorialsHouseIsOneWholeWithoutWarnings) {
+  EXPECT_TRUE(check_map(SEMVIEW_SOURCE_DIR "/maps/tutorial").report.problems.empty());
 }
 
 TEST(ShippedMapsTest, TheDuplexIsTwoApartmentsWithARobotsWorthOfFreeSpaceEach) {
