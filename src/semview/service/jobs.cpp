@@ -52,6 +52,7 @@ Result<std::uint64_t> Jobs::start_precompute(std::shared_ptr<Site> site,
   job->status.map_id = site->id();
   job->status.progress.cells = job->plan.cells.size();
   job->site = std::move(site);
+  JobStatus announced;  // the job may be running before it is announced
   {
     const std::lock_guard lock(mutex_);
     if (counters_.running >= limits_.max_running_jobs) {
@@ -65,9 +66,10 @@ Result<std::uint64_t> Jobs::start_precompute(std::shared_ptr<Site> site,
     jobs_.emplace(job->status.id, job);
     ++counters_.running;
     forget_old_jobs();
+    announced = job->status;
   }
-  announce(job->status);
-  return job->status.id;
+  announce(announced);
+  return announced.id;
 }
 
 Result<JobStatus> Jobs::status(std::uint64_t id) const {
