@@ -9,13 +9,14 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "admission.hpp"
 #include "dispatcher.hpp"
+#include "outbox.hpp"
 #include "semview/core/log.hpp"
 #include "semview/protocol/envelope.hpp"
 #include "semview/protocol/map_wire.hpp"
@@ -27,7 +28,10 @@ namespace {
 
 /// How long the I/O thread sleeps when nothing happens.
 constexpr std::chrono::milliseconds kIdle{1000};
-constexpr std::chrono::milliseconds kIdleInDrain{20};
+/// How soon it looks again while a drain or an unread reply is waited for.
+constexpr std::chrono::milliseconds kSoon{10};
+/// Replies that wait for one client: beyond its requests in flight these are refusals, and small.
+constexpr std::size_t kMaxUnreadReplies = 1000;
 constexpr std::chrono::milliseconds kDrainOfDestructor{5000};
 
 struct Event {
@@ -55,7 +59,11 @@ class Server::Parts {
         sockets_(std::move(sockets)),
         services_(std::move(maps), config.limits, config.epoch),
         endpoint_(sockets_->endpoint()),
-        events_endpoint_(sockets_->events_endpoint()) {
+        events_endpoint_(sockets_->events_endpoint()),
+        admission_(config.limits, config.max_queued_bytes),
+        outbox_([this](const Outgoing& reply) { return sockets_->send(reply); },
+                config.max_queued_bytes,
+                kMaxUnreadReplies) {
     services_.default_deadline_ms = config.default_deadline_ms;
     services_.max_deadline_ms = config.max_deadline_ms;
     services_.events_port = sockets_->events_port();
@@ -83,7 +91,7 @@ class Server::Parts {
 
   bool drain(std::chrono::milliseconds patience) {
     const std::lock_guard only_one(drain_mutex_);
-    if (!io_thread_.joinable()) return in_flight_ == 0;
+    if (!io_thread_.joinable()) return answered();
     {
       const std::lock_guard lock(jobs_mutex_);
       jobs_ending_ = true;
@@ -97,7 +105,7 @@ class Server::Parts {
     sockets_->ring();
     io_thread_.join();
     dispatcher_->abandon();
-    return in_flight_ == 0;
+    return answered();
   }
 
   ServerCounters counters() const {
@@ -108,28 +116,30 @@ class Server::Parts {
     counters.refused = refused_;
     counters.expired = expired_;
     counters.malformed = malformed_;
-    counters.undelivered = undelivered_;
-    counters.in_flight = in_flight_;
+    counters.undelivered = outbox_.undelivered();
+    counters.in_flight = admission_.in_flight();
     counters.queued_cells = dispatcher_->queued_cells();
     counters.cells_by_client = dispatcher_->cells_by_client();
     return counters;
   }
 
  private:
+  bool answered() const { return admission_.in_flight() == 0 && outbox_.empty(); }
+
   // --- the I/O thread ---
 
   void run_io() {
     for (;;) {
       bool received = false;
       try {
-        sockets_->wait(draining_ ? kIdleInDrain : kIdle);
+        sockets_->wait(draining_ || !outbox_.empty() ? kSoon : kIdle);
         received = receive_some();
         send_finished();
       } catch (const std::exception& error) {
         log_error(fmt::format("I/O: {}", error.what()));
       }
       // Requests are let in by this thread alone: none can slip in after the last look.
-      if (draining_ && ((in_flight_ == 0 && !received) || steady_clock().now() >= drain_until_)) {
+      if (draining_ && ((answered() && !received) || steady_clock().now() >= drain_until_)) {
         return;
       }
     }
@@ -159,9 +169,7 @@ class Server::Parts {
                                         ? config_.default_deadline_ms
                                         : std::min(header.deadline_ms(), config_.max_deadline_ms);
     const std::size_t bytes = incoming.body.size();
-    queued_bytes_ += bytes;
-    ++in_flight_of_[incoming.client];
-    ++in_flight_;
+    admission_.enter(incoming.client, bytes);
     Request request{incoming.client,
                     header.client_name(),
                     header.method(),
@@ -199,23 +207,8 @@ class Server::Parts {
     return protocol::validate(*header);
   }
 
-  /// Is there such a method, and room for one more request?
+  /// @errors kUnavailable: the server is shutting down; those of `Admission::check`.
   Status admit(const Incoming& incoming, const v1::RequestHeader& header) {
-    const service::Limits& limits = config_.limits;
-    if (planning_cells(header.method()) == 0) {
-      return fail(Error{ErrorCode::kUnimplemented,
-                        fmt::format("method: '{}' is not known; expected one of {}",
-                                    header.method(),
-                                    fmt::join(method_names(), ", ")),
-                        "method"});
-    }
-    if (incoming.body.size() > limits.max_message_bytes) {
-      return fail(Error{
-          ErrorCode::kResourceExhausted,
-          fmt::format("body: {} bytes; at most {}", incoming.body.size(), limits.max_message_bytes),
-          "body",
-          "split the request"});
-    }
     if (draining_) {
       return fail(Error{ErrorCode::kUnavailable,
                         "the server is shutting down",
@@ -223,35 +216,16 @@ class Server::Parts {
                         "send it again when the server is back",
                         kRetryAfter_ms});
     }
-    const auto full = [](std::string message) {
-      return fail(Error{ErrorCode::kResourceExhausted,
-                        std::move(message),
-                        "",
-                        "the server is busy: send it again later",
-                        kRetryAfter_ms});
-    };
-    const auto own = in_flight_of_.find(incoming.client);
-    if (own == in_flight_of_.end() && in_flight_of_.size() >= limits.max_clients) {
-      return full(fmt::format("{} clients wait for answers already", in_flight_of_.size()));
-    }
-    if (own != in_flight_of_.end() && own->second >= limits.max_in_flight_per_client) {
-      return full(fmt::format("{} requests of this client are unanswered already", own->second));
-    }
-    if (queued_bytes_ + incoming.body.size() > config_.max_queued_bytes) {
-      return full(fmt::format("requests of {} bytes wait already", queued_bytes_));
-    }
-    if (dispatcher_->queued_cells() >= limits.max_queued_cells) {
-      return full(fmt::format("{} cells of work wait already", dispatcher_->queued_cells()));
-    }
-    return {};
+    return admission_.check(incoming.client,
+                            header.method(),
+                            incoming.body.size(),
+                            outbox_.waiting(incoming.client),
+                            dispatcher_->queued_cells());
   }
 
   void refuse(const Incoming& incoming, std::uint64_t request_id, Error error) {
-    deliver(reply_of(incoming.client, incoming.delimiter, request_id, fail(std::move(error))));
-  }
-
-  void deliver(Outgoing reply) {
-    if (!sockets_->send(std::move(reply))) ++undelivered_;
+    outbox_.deliver(
+        reply_of(incoming.client, incoming.delimiter, request_id, fail(std::move(error))));
   }
 
   void send_finished() {
@@ -262,14 +236,12 @@ class Server::Parts {
       finished.swap(finished_);
       events.swap(events_);
     }
+    outbox_.flush();
     for (Finished& one : finished) {
-      queued_bytes_ -= one.body_bytes;
-      const auto own = in_flight_of_.find(one.reply.client);
-      if (--own->second == 0) in_flight_of_.erase(own);
-      deliver(std::move(one.reply));
+      admission_.leave(one.reply.client, one.body_bytes);
+      outbox_.deliver(std::move(one.reply));
     }
     for (const Event& event : events) sockets_->publish(event.topic, event.body);
-    in_flight_ -= finished.size();
   }
 
   // --- any thread ---
@@ -341,9 +313,9 @@ class Server::Parts {
   const std::string events_endpoint_;
   std::unique_ptr<Dispatcher> dispatcher_;
 
-  // Of the I/O thread alone.
-  std::unordered_map<std::string, std::size_t> in_flight_of_;
-  std::uint64_t queued_bytes_ = 0;
+  // Of the I/O thread, but for their counts.
+  Admission admission_;
+  Outbox outbox_;
 
   std::mutex finished_mutex_;  ///< guards finished_, events_
   std::deque<Finished> finished_;
@@ -357,13 +329,11 @@ class Server::Parts {
   std::mutex drain_mutex_;
   TimePoint drain_until_;  ///< set before draining_
   std::atomic<bool> draining_{false};
-  std::atomic<std::uint64_t> in_flight_{0};
   std::atomic<std::uint64_t> requests_{0};
   std::atomic<std::uint64_t> errors_{0};
   std::atomic<std::uint64_t> refused_{0};
   std::atomic<std::uint64_t> expired_{0};
   std::atomic<std::uint64_t> malformed_{0};
-  std::atomic<std::uint64_t> undelivered_{0};
   std::thread jobs_thread_;
   std::thread io_thread_;
 };
@@ -375,8 +345,6 @@ Result<std::unique_ptr<Server>> Server::start(const ServerConfig& config,
   sockets.bind = config.bind;
   sockets.events = config.events;
   sockets.max_message_bytes = config.limits.max_message_bytes;
-  sockets.max_replies_per_client =
-      std::max<std::size_t>(1000, 2 * config.limits.max_in_flight_per_client);
   SEMVIEW_TRY(std::unique_ptr<Sockets> bound, Sockets::bind(sockets));
   return std::unique_ptr<Server>(
       new Server(std::make_unique<Parts>(config, std::move(maps), std::move(bound), clock)));

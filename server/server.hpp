@@ -20,7 +20,7 @@ struct ServerConfig {
   bool events = true;                         ///< PUB socket for progress
   std::size_t workers = 0;                    ///< 0: one a core
   service::Limits limits = {};
-  /// Bytes of requests that wait, all clients together.
+  /// Bytes of requests that wait, all clients together; and as many of replies that are not read.
   std::uint64_t max_queued_bytes = std::uint64_t{512} << 20U;
   std::uint32_t default_deadline_ms = 30'000;  ///< of requests that name none
   std::uint32_t max_deadline_ms = 600'000;     ///< longer ones are cut to this

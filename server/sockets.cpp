@@ -16,6 +16,8 @@ namespace {
 /// A message above the limit but below this is read, so that its sender gets a typed error; beyond
 /// it the connection is cut.
 constexpr std::size_t kCutFactor = 2;
+/// Messages that the socket itself holds for one client; more wait with us, where they are counted.
+constexpr int kMessagesInSocket = 8;
 /// How long replies that are still on their way are given when the server ends.
 constexpr int kLinger_ms = 1000;
 
@@ -63,8 +65,8 @@ struct Sockets::Parts {
     const auto largest = static_cast<std::int64_t>(config.max_message_bytes * kCutFactor);
     router.set(zmq::sockopt::maxmsgsize, largest);
     router.set(zmq::sockopt::linger, kLinger_ms);
-    router.set(zmq::sockopt::sndhwm, static_cast<int>(config.max_replies_per_client));
-    router.set(zmq::sockopt::rcvhwm, static_cast<int>(config.max_replies_per_client));
+    router.set(zmq::sockopt::sndhwm, kMessagesInSocket);
+    router.set(zmq::sockopt::rcvhwm, kMessagesInSocket);
     // Without it replies to clients that are gone or do not read vanish uncounted.
     router.set(zmq::sockopt::router_mandatory, 1);
     router.bind(config.bind);
@@ -141,7 +143,7 @@ std::optional<Incoming> Sockets::receive() {
   return incoming;
 }
 
-bool Sockets::send(Outgoing reply) {
+Sent Sockets::send(const Outgoing& reply) {
   const auto part = [this](const std::string& bytes, bool more) {
     const auto flags =
         zmq::send_flags::dontwait | (more ? zmq::send_flags::sndmore : zmq::send_flags::none);
@@ -149,13 +151,13 @@ bool Sockets::send(Outgoing reply) {
   };
   try {
     // Whether the client can take it is decided at the first part.
-    if (!part(reply.client, true)) return false;
+    if (!part(reply.client, true)) return Sent::kFull;
     if (reply.delimiter) part({}, true);
     part(reply.header, true);
     part(reply.body, false);
-    return true;
+    return Sent::kSent;
   } catch (const zmq::error_t& error) {
-    if (error.num() == EHOSTUNREACH) return false;
+    if (error.num() == EHOSTUNREACH) return Sent::kGone;
     throw;
   }
 }

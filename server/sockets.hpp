@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "outbox.hpp"
 #include "semview/core/result.hpp"
 
 namespace semview::server {
@@ -24,18 +25,10 @@ struct Incoming {
   std::string body;
 };
 
-struct Outgoing {
-  std::string client;
-  bool delimiter = false;
-  std::string header;
-  std::string body;
-};
-
 struct SocketConfig {
   std::string bind = "tcp://127.0.0.1:5560";  ///< `*` as port: any free one
   bool events = true;                         ///< also a PUB socket, any free port of the address
   std::size_t max_message_bytes = std::size_t{64} << 20U;
-  std::size_t max_replies_per_client = 128;  ///< waiting in a socket for a client that reads slowly
 };
 
 /// ROUTER for requests, PUB for events.
@@ -56,8 +49,7 @@ class Sockets {
   void wait(std::chrono::milliseconds time);
   /// The next request, if one is there.
   std::optional<Incoming> receive();
-  /// False: the client has gone, or reads so slowly that its share of the socket is full.
-  bool send(Outgoing reply);
+  Sent send(const Outgoing& reply);
   void publish(std::string_view topic, std::string_view event);
 
   /// Ends a `wait`, this one or the next.

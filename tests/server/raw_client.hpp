@@ -23,12 +23,14 @@ struct RawReply {
 
 class RawClient {
  public:
-  explicit RawClient(const std::string& endpoint, zmq::socket_type type = zmq::socket_type::dealer)
+  explicit RawClient(const std::string& endpoint,
+                     zmq::socket_type type = zmq::socket_type::dealer,
+                     int unread_replies = 100'000)
       : socket_(context_, type) {
     socket_.set(zmq::sockopt::linger, 0);
     socket_.set(zmq::sockopt::rcvtimeo, 20'000);
     socket_.set(zmq::sockopt::sndhwm, 100'000);
-    socket_.set(zmq::sockopt::rcvhwm, 100'000);
+    socket_.set(zmq::sockopt::rcvhwm, unread_replies);
     socket_.connect(endpoint);
   }
 

@@ -2,7 +2,7 @@
 #include "server.hpp"
 
 #include <chrono>
-#include <future>
+#include <set>
 #include <thread>
 
 #include "semview/core/thread_pool.hpp"
@@ -325,6 +325,32 @@ TEST_F(ServerTest, ClientsThatLeaveOrDoNotReadHoldNothingUp) {
   expect_alive();
 }
 
+TEST_F(ServerTest, AClientThatReadsLateGetsEveryReply) {
+  server::ServerConfig config;
+  config.limits.max_in_flight_per_client = 200;
+  start(config);
+  RawClient client(server_->endpoint(), zmq::socket_type::dealer, 1);
+  v1::ScoreRequest request = score_request(set_observation(client), 500);
+  request.set_whole_curve(true);
+  const std::string body = request.SerializeAsString();
+  // 24 MB of replies: more than the sockets on the way hold.
+  constexpr int kCount = 100;
+  for (std::uint64_t i = 0; i < kCount; ++i) client.send(RawClient::header("Score", i), body);
+  while (server_->counters().requests < kCount || server_->counters().in_flight > 0) {
+    std::this_thread::yield();
+  }
+  expect_alive();
+  std::set<std::uint64_t> ids;
+  for (int i = 0; i < kCount; ++i) {
+    const auto reply = client.receive();
+    ASSERT_TRUE(reply) << i;
+    EXPECT_FALSE(reply->header.has_error()) << reply->header.error().message();
+    ids.insert(reply->header.request_id());
+  }
+  EXPECT_EQ(ids.size(), static_cast<std::size_t>(kCount));
+  EXPECT_EQ(server_->counters().undelivered, 0U);
+}
+
 TEST_F(ServerTest, DrainAnswersWhatIsInsideAndRefusesTheRest) {
   RawClient client(server_->endpoint());
   const std::string id = set_observation(client);
@@ -373,26 +399,28 @@ TEST_F(ServerTest, ProgressOfAPrecomputeIsPublishedAndAskedFor) {
   request.set_map_id("room");
   v1::Event event;
   std::string job_id;
-  // A subscription takes a moment to arrive: jobs are started until one is heard of.
+  // A subscription takes a moment to arrive: jobs are run until one is heard of.
   events.set(zmq::sockopt::rcvtimeo, 200);
+  v1::JobStatusRequest status;
   for (int i = 0; i < 100 && job_id.empty(); ++i) {
-    const std::string id =
-        client.get<v1::StartPrecomputeReply>("StartPrecompute", request).job_id();
+    status.set_job_id(client.get<v1::StartPrecomputeReply>("StartPrecompute", request).job_id());
+    while (client.get<v1::JobStatusReply>("JobStatus", status).state() != v1::JOB_STATE_DONE) {
+      std::this_thread::yield();
+    }
     zmq::message_t frame;
     while (events.recv(frame)) {
       EXPECT_TRUE(frame.more());
+      EXPECT_TRUE(frame.to_string_view().starts_with("job/"));
       ASSERT_TRUE(events.recv(frame));
       ASSERT_TRUE(event.ParseFromArray(frame.data(), static_cast<int>(frame.size())));
-      if (event.job().job_id() == id && event.job().state() == v1::JOB_STATE_DONE) {
-        job_id = id;
+      if (event.job().job_id() == status.job_id() && event.job().state() == v1::JOB_STATE_DONE) {
+        job_id = status.job_id();
         break;
       }
     }
   }
   ASSERT_FALSE(job_id.empty());
   EXPECT_EQ(event.job().found_cells() + event.job().cast_cells(), event.job().total_cells());
-  v1::JobStatusRequest status;
-  status.set_job_id(job_id);
   const auto reply = client.get<v1::JobStatusReply>("JobStatus", status);
   EXPECT_EQ(reply.state(), v1::JOB_STATE_DONE);
   EXPECT_GE(reply.total_cells(), site_->cells().free_count() / 2);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which requests are let in: everything from outside has a limit.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+#include "semview/core/result.hpp"
+#include "semview/service/limits.hpp"
+
+namespace semview::server {
+
+/// Counts requests that are not answered yet.
+/// @threads For one thread; `in_flight` from any.
+class Admission {
+ public:
+  Admission(const service::Limits& limits, std::uint64_t max_queued_bytes);
+
+  /// Is there such a method, and room for one more request of `body_bytes`?
+  /// @param unread  Replies that the client has not taken yet.
+  /// @param queued_cells  Work that waits, of all clients.
+  /// @errors kUnimplemented: no such method; kResourceExhausted: above a limit.
+  Status check(const std::string& client,
+               const std::string& method,
+               std::size_t body_bytes,
+               std::size_t unread,
+               std::uint64_t queued_cells) const;
+
+  void enter(const std::string& client, std::size_t body_bytes);
+  void leave(const std::string& client, std::size_t body_bytes);
+
+  std::uint64_t in_flight() const { return in_flight_; }
+
+ private:
+  const service::Limits limits_;
+  const std::uint64_t max_queued_bytes_;
+  std::unordered_map<std::string, std::size_t> in_flight_of_;
+  std::uint64_t queued_bytes_ = 0;
+  std::atomic<std::uint64_t> in_flight_{0};
+};
+
+}  // namespace semview::server
