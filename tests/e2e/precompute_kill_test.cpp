@@ -28,7 +28,8 @@ using Records = std::map<std::vector<std::byte>, std::vector<std::byte>>;
 
 class PrecomputeKillTest : public ::testing::Test {
  protected:
-  /// Starts `semview precompute` on a duplex level; its output goes to files in the folder.
+  /// Starts `semview precompute` on a duplex level, a third of the default's pixels; its output
+  /// goes to files in the folder.
   pid_t start(const std::string& cache, const char* threads) const {
     const std::string program = std::string(SEMVIEW_BINARY_DIR) + "/semview";
     const std::string map = std::string(SEMVIEW_SOURCE_DIR) + "/maps/duplex_level1";
@@ -47,6 +48,10 @@ class PrecomputeKillTest : public ::testing::Test {
             directory.c_str(),
             "--threads",
             threads,
+            "--columns",
+            "240",
+            "--rows",
+            "45",
             static_cast<char*>(nullptr));
       _exit(127);
     }
@@ -92,8 +97,7 @@ TEST_F(PrecomputeKillTest, TwentyKillsLeaveTheRecordsOfAnUninterruptedRun) {
   for (int tries = 0; kills < 20; ++tries) {
     ASSERT_LT(tries, 100);
     const pid_t child = start("killed", kills % 2 == 0 ? "2" : "1");
-    std::this_thread::sleep_for(
-        std::chrono::duration<double>(rng.uniform(0, whole_s.count() / 16)));
+    std::this_thread::sleep_for(std::chrono::duration<double>(rng.uniform(0, whole_s.count() / 8)));
     kill(child, SIGKILL);
     const int status = wait_for(child);
     if (WIFSIGNALED(status)) {
