@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
     semview::cli::add_weights_verb(app, exit_code);
     semview::cli::add_view_verb(app, exit_code);
     semview::cli::add_evaluate_verb(app, exit_code);
+    semview::cli::add_score_verb(app, exit_code);
+    semview::cli::add_heatmap_verb(app, exit_code);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

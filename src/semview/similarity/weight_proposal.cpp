@@ -2,6 +2,7 @@
 #include "semview/similarity/weight_proposal.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace semview::similarity {
@@ -48,7 +49,8 @@ Result<WeightProposal> propose_weights(std::span<const NamedClass> observed,
   std::vector<bool> column_matched(columns.size(), false);
   for (std::size_t i = 0; i < observed.size(); ++i) {
     for (std::size_t j = 0; j < columns.size(); ++j) {
-      const double weight = weight_of(observed[i], columns[j], synonyms);
+      // To thousandths: the file is for people, and 0.8 · 0.2 is not 0.16 in binary.
+      const double weight = std::round(weight_of(observed[i], columns[j], synonyms) * 1e3) / 1e3;
       band.weights.push_back(weight);
       if (weight <= 0.0) continue;
       // Seeing nothing tells a class from no other: `none` matches no row.

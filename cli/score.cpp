@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pose_list.hpp"
+#include "semview/core/hash.hpp"
+#include "semview/geometry/angle.hpp"
+#include "semview/io/observation_folder.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "semview/similarity/similarity_score_source.hpp"
+#include "site_options.hpp"
+#include "verb.hpp"
+
+namespace semview::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+  SiteOptions site;
+  std::string observation;
+  std::string weights;
+  std::string pose;
+  std::string poses;
+  bool compass = false;
+  bool curve = false;
+  bool clip = false;
+  bool json = false;
+};
+
+Result<ScoreRequest> request_of(const Options& options) {
+  if (options.pose.empty() == options.poses.empty()) {
+    return fail(Error{
+        ErrorCode::kInvalidArgument, "give the poses with either --pose or --poses", "--pose"});
+  }
+  ScoreRequest request;
+  if (options.pose.empty()) {
+    SEMVIEW_TRY(request.poses, read_pose_list(options.poses));
+  } else {
+    SEMVIEW_TRY(const Pose2 pose, parse_pose("--pose", options.pose));
+    request.poses.push_back(pose);
+  }
+  const bool compass = options.compass || options.curve;
+  request.mode = compass ? HeadingMode::kCompass : HeadingMode::kAsGiven;
+  request.whole_curve = options.curve;
+  return request;
+}
+
+/// Equation (1); nothing where a pose has no view.
+std::optional<double> similarity_of(const ScoreBatch& batch, std::int32_t sum, bool clip) {
+  if (sum == kNoView) return {};
+  const double similarity = batch.similarity(sum);
+  return clip ? std::max(similarity, 0.0) : similarity;
+}
+
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json pose_json(const ScoreRequest& request,
+                       const ScoreBatch& batch,
+                       std::size_t i,
+                       bool clip) {
+  const Pose2& pose = request.poses[i];
+  ordered_json entry{{"x_m", pose.x_m},
+                     {"y_m", pose.y_m},
+                     {"yaw_deg", deg_from_rad(pose.yaw_rad)},
+                     {"similarity", number_or_null(similarity_of(batch, batch.sums[i], clip))}};
+  if (batch.sums[i] == kNoView) return entry;
+  entry["sum"] = batch.sums[i];
+  if (!batch.best_heading.empty()) {
+    entry["best_yaw_deg"] = deg_from_rad(PoseGrid::heading_yaw_rad(batch.best_heading[i]));
+  }
+  if (request.whole_curve) {
+    ordered_json curve = ordered_json::array();
+    for (std::size_t k = 0; k < PoseGrid::kHeadings; ++k) {
+      const std::int32_t sum = batch.curve[i * PoseGrid::kHeadings + k];
+      curve.push_back(number_or_null(similarity_of(batch, sum, clip)));
+    }
+    entry["curve"] = std::move(curve);
+  }
+  return entry;
+}
+
+void print_json(const service::Site& site,
+                const ScoreRequest& request,
+                const ScoreBatch& batch,
+                bool clip) {
+  ordered_json json{{"map", site.id()},
+                    {"fingerprint", to_hex(site.map().fingerprint)},
+                    {"engine", site.engine().name},
+                    {"weight_scale", batch.weight_scale},
+                    {"observed_pixels", batch.observed_pixels},
+                    {"cells",
+                     {{"memory", batch.origins.memory},
+                      {"disk", batch.origins.disk},
+                      {"cast", batch.origins.cast}}}};
+  ordered_json poses = ordered_json::array();
+  for (std::size_t i = 0; i < request.poses.size(); ++i) {
+    poses.push_back(pose_json(request, batch, i, clip));
+  }
+  json["poses"] = std::move(poses);
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void print_table(const ScoreRequest& request, const ScoreBatch& batch, const Options& options) {
+  const bool compass = !batch.best_heading.empty();
+  fmt::print("x_m,y_m,yaw_deg,similarity{}\n", compass ? ",best_yaw_deg" : "");
+  for (std::size_t i = 0; i < request.poses.size(); ++i) {
+    const Pose2& pose = request.poses[i];
+    const auto similarity = similarity_of(batch, batch.sums[i], options.clip);
+    fmt::print("{:g},{:g},{:g},{}",
+               pose.x_m,
+               pose.y_m,
+               deg_from_rad(pose.yaw_rad),
+               similarity ? fmt::format("{:.6f}", *similarity) : "no_view");
+    if (compass) {
+      fmt::print(",{:g}", deg_from_rad(PoseGrid::heading_yaw_rad(batch.best_heading[i])));
+    }
+    fmt::print("\n");
+  }
+  if (!options.curve) return;
+  for (std::size_t i = 0; i < request.poses.size(); ++i) {
+    fmt::print("\npose {}: yaw_deg,similarity\n", i);
+    for (int k = 0; k < PoseGrid::kHeadings; ++k) {
+      const std::size_t at = i * PoseGrid::kHeadings + static_cast<std::size_t>(k);
+      const auto similarity = similarity_of(batch, batch.curve[at], options.clip);
+      fmt::print("{:g},{}\n",
+                 deg_from_rad(PoseGrid::heading_yaw_rad(k)),
+                 similarity ? fmt::format("{:.6f}", *similarity) : "no_view");
+    }
+  }
+}
+
+Status score(const Options& options) {
+  SEMVIEW_TRY(const ScoreRequest request, request_of(options));
+  SEMVIEW_TRY(similarity::WeightMatrix weights, similarity::read_weight_matrix(options.weights));
+  SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
+  SEMVIEW_TRY(const Observation observation,
+              io::read_observation(options.observation, site->profile().camera));
+  similarity::SimilarityScoreSource source(
+      site->views(), site->map().classes, std::move(weights), site->pool());
+  SEMVIEW_TRY_STATUS(source.set_observation(observation));
+  SEMVIEW_TRY(const ScoreBatch batch, source.score(request));
+  if (options.json) {
+    print_json(*site, request, batch, options.clip);
+  } else {
+    print_table(request, batch, options);
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_score_verb(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "score",
+      "Compare an observation with the map's views at given poses: the mean weight over the "
+      "observed pixels, 1 for a perfect match of distinctive classes. With --compass all 120 "
+      "headings are tried at each position and the best is reported.");
+  const auto options = std::make_shared<Options>();
+  add_site_options(*verb, options->site);
+  verb->add_option("--obs", options->observation, "Observation folder")
+      ->type_name("DIR")
+      ->required();
+  verb->add_option("--weights", options->weights, "Weight matrix")
+      ->type_name("FILE.csv")
+      ->required();
+  verb->add_option("--pose", options->pose, "One pose")->type_name("X,Y,YAW_DEG");
+  verb->add_option("--poses", options->poses, "Poses, one a line: x,y,yaw_deg")
+      ->type_name("FILE.csv");
+  verb->add_flag("--compass", options->compass, "Try all 120 headings, report the best");
+  verb->add_flag(
+      "--curve", options->curve, "With the similarity of each heading (implies --compass)");
+  verb->add_flag("--clip-negative", options->clip, "Report negative similarities as 0");
+  verb->add_flag("--json", options->json, "Print the result as JSON");
+  verb->footer(
+      "Example: semview score maps/duplex_level1 --obs obs --weights "
+      "maps/duplex_level1/weights.csv --pose 3,-9,90 --compass");
+  verb->callback([options, &exit_code] { exit_code = report(score(*options)); });
+}
+
+}  // namespace semview::cli

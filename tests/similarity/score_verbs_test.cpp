@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+/// `semview weights|score|heatmap` as a user runs them, on a shipped plan.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "semview/io/observation_folder.hpp"
+#include "semview/io/png.hpp"
+#include "semview/map/cell_grid.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "semview/raycast/panorama_renderer.hpp"
+#include "semview/service/site.hpp"
+
+namespace semview {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  ///< standard output and error
+};
+
+/// An observation cast from the centre of a free cell of the duplex, turned by 90°.
+class ScoreVerbsTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("semview_score_verbs_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    service::SiteConfig config;
+    config.threads = 1;
+    const auto site = service::Site::open(kMap, config).value();
+    const std::vector<CellIndex> cells = site->cells().free_cells();
+    truth_ = PoseGrid::center(GridKey{cells[cells.size() / 2], 30});
+    raycast::PanoramaRequest request;
+    request.map_from_robot = truth_;
+    request.eye_z_m = site->eye_z_m(1.2);
+    const auto panorama = site->exact_panorama(request).value();
+    io::ObservationSetup setup;
+    setup.classes = site->map().classes;
+    ASSERT_TRUE(io::write_observation(folder_ / "obs", setup, panorama.labels, 1.0));
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
+
+  static Outcome run(const std::string& arguments) {
+    const std::string command = std::string(SEMVIEW_BINARY_DIR) + "/semview " + arguments + " 2>&1";
+    Outcome outcome;
+    FILE* const pipe = popen(command.c_str(), "r");
+    char buffer[4096];
+    while (const std::size_t count = fread(buffer, 1, sizeof(buffer), pipe)) {
+      outcome.output.append(buffer, count);
+    }
+    const int status = pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+  static std::string file(const std::string& name) { return (folder_ / name).string(); }
+  static std::string inputs() {
+    return std::string(kMap) + " --obs " + file("obs") + " --weights " + kMap + "/weights.csv";
+  }
+
+  static constexpr const char* kMap = SEMVIEW_SOURCE_DIR "/maps/duplex_level1";
+  inline static std::filesystem::path folder_;
+  inline static Pose2 truth_;
+};
+
+TEST_F(ScoreVerbsTest, TheCompassFindsTheHeadingAtTheTruePosition) {
+  const std::string pose = std::to_string(truth_.x_m) + "," + std::to_string(truth_.y_m) + ",0";
+  const Outcome outcome =
+      run("score " + inputs() + " --pose " + pose + " --compass --curve --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json result = json::parse(outcome.output);
+  EXPECT_EQ(result["observed_pixels"], 360 * 90);
+  EXPECT_EQ(result["poses"][0]["curve"].size(), 120U);
+  EXPECT_NEAR(result["poses"][0]["best_yaw_deg"].get<double>(), 90.0, 1e-9);
+  EXPECT_EQ(result["poses"][0]["similarity"], result["poses"][0]["curve"][30]);
+}
+
+TEST_F(ScoreVerbsTest, PosesOfAFileAreScoredInOrder) {
+  std::ofstream(file("poses.csv")) << "x,y,yaw_deg\n"
+                                   << truth_.x_m << "," << truth_.y_m << ",90\n"
+                                   << "# far outside\n1000,1000,0\n";
+  const Outcome outcome = run("score " + inputs() + " --poses " + file("poses.csv") + " --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json poses = json::parse(outcome.output)["poses"];
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_GT(poses[0]["similarity"].get<double>(), 0.2);
+  EXPECT_TRUE(poses[1]["similarity"].is_null());
+}
+
+TEST_F(ScoreVerbsTest, TheHeatMapIsHighestWhereTheRobotStands) {
+  const Outcome outcome = run("heatmap " + inputs() + " -o " + file("heat.png") + " --npy " +
+                              file("heat.npy") + " --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json result = json::parse(outcome.output);
+  EXPECT_NEAR(result["best"]["x_m"].get<double>(), truth_.x_m, 1e-9);
+  EXPECT_NEAR(result["best"]["y_m"].get<double>(), truth_.y_m, 1e-9);
+  EXPECT_NEAR(result["best"]["yaw_deg"].get<double>(), 90.0, 1e-9);
+  EXPECT_GT(std::filesystem::file_size(file("heat.npy")), 1000U);
+  EXPECT_TRUE(io::read_png_rgb(file("heat.png")));
+  const json beside = json::parse(std::ifstream(file("heat.json")));
+  EXPECT_EQ(beside["fingerprint"], result["fingerprint"]);
+  EXPECT_EQ(beside["step_m"], 0.1);
+}
+
+TEST_F(ScoreVerbsTest, WeightsInitWritesWhatWeightsCheckAccepts) {
+  const std::string csv = file("w.csv");
+  const Outcome init = run("weights init " + std::string(kMap) + " -o " + csv + " --json");
+  ASSERT_EQ(init.exit_code, 0) << init.output;
+  EXPECT_TRUE(json::parse(init.output)["unmatched_map"].empty());
+  EXPECT_EQ(
+      run("weights check " + std::string(kMap) + " " + csv + " --vocabulary ade20k150").exit_code,
+      0);
+  const Outcome check =
+      run("weights check " SEMVIEW_SOURCE_DIR "/maps/largebuilding_level1 " + csv);
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_THAT(check.output, HasSubstr("no column for map class desk"));
+}
+
+TEST_F(ScoreVerbsTest, WrongUsageEndsWithTwoAndWrongInputWithOne) {
+  EXPECT_EQ(run("score " + inputs()).exit_code, 2);
+  EXPECT_EQ(run("score " + inputs() + " --pose 1,2").exit_code, 2);
+  EXPECT_EQ(run("heatmap " + inputs() + " -o " + file("x.png") + " --headings 7").exit_code, 2);
+  const Outcome missing = run("score " + std::string(kMap) + " --obs " + file("obs") +
+                              " --weights " + file("none.csv") + " --pose 1,2,3");
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.output, HasSubstr("none.csv: cannot be read"));
+}
+
+}  // namespace
+}  // namespace semview
