@@ -97,8 +97,8 @@ TEST_F(ScoreVerbsTest, PosesOfAFileAreScoredInOrder) {
 }
 
 TEST_F(ScoreVerbsTest, TheHeatMapIsHighestWhereTheRobotStands) {
-  const Outcome outcome = run("heatmap " + inputs() + " -o " + file("heat.png") + " --npy " +
-                              file("heat.npy") + " --json");
+  const Outcome outcome = run("heatmap " + inputs() + " --columns 120 --rows 30 -o " +
+                              file("heat.png") + " --npy " + file("heat.npy") + " --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const json result = json::parse(outcome.output);
   EXPECT_NEAR(result["best"]["x_m"].get<double>(), truth_.x_m, 1e-9);
@@ -128,7 +128,10 @@ TEST_F(ScoreVerbsTest, WeightsInitWritesWhatWeightsCheckAccepts) {
 TEST_F(ScoreVerbsTest, WrongUsageEndsWithTwoAndWrongInputWithOne) {
   EXPECT_EQ(run("score " + inputs()).exit_code, 2);
   EXPECT_EQ(run("score " + inputs() + " --pose 1,2").exit_code, 2);
-  EXPECT_EQ(run("heatmap " + inputs() + " -o " + file("x.png") + " --headings 7").exit_code, 2);
+  EXPECT_EQ(
+      run("heatmap " + inputs() + " --columns 120 --rows 30 -o " + file("x.png") + " --headings 7")
+          .exit_code,
+      2);
   const Outcome missing = run("score " + std::string(kMap) + " --obs " + file("obs") +
                               " --weights " + file("none.csv") + " --pose 1,2,3");
   EXPECT_EQ(missing.exit_code, 1);
