@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 
 #include "map_verbs.hpp"
+#include "semview/raycast/mesh_cell_grid.hpp"
+#include "semview/raycast/scene.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -16,6 +18,12 @@ void add_map_verb(CLI::App& app, int& exit_code) {
   add_map_pictures(*map, exit_code);
   add_map_import(*map, exit_code);
   add_map_export(*map, exit_code);
+}
+
+Result<map::CellGrid> cell_grid_of(const map::SemanticMap& map, double eye_height_m) {
+  if (const map::ColumnMap* columns = map.columns()) return build_cell_grid(*columns, eye_height_m);
+  SEMVIEW_TRY(const raycast::Scene scene, raycast::Scene::build(map.mesh()->mesh));
+  return raycast::build_cell_grid(scene, map.ground_height_m, eye_height_m);
 }
 
 }  // namespace semview::cli

@@ -45,11 +45,25 @@ void print_text(const std::string& path, const map::MapCheck& check) {
              warnings == 1 ? "" : "s");
 }
 
+/// `check_map` cannot cast rays, which a mesh's free space takes.
+void check_mesh_space(const std::filesystem::path& path,
+                      double eye_height_m,
+                      map::MapCheck& check) {
+  if (!check.map || check.map->mesh() == nullptr) return;
+  const Result<map::CellGrid> grid = cell_grid_of(*check.map, eye_height_m);
+  if (grid) {
+    check_free_space(*grid, nullptr, path, check.report);
+  } else {
+    check.report.problems.push_back(map::problem_of(path, grid.error()));
+  }
+}
+
 int check_maps(const Options& options) {
   std::vector<std::filesystem::path> paths(options.maps.begin(), options.maps.end());
   std::vector<map::MapCheck> checks;
   for (const std::filesystem::path& path : paths) {
     checks.push_back(map::check_map(path, options.check));
+    check_mesh_space(path, options.check.eye_height_m, checks.back());
   }
   check_unique_ids(paths, checks);
   bool errors = false;

@@ -43,7 +43,7 @@ ordered_json classes_json(const map::SemanticMap& map) {
   return classes;
 }
 
-ordered_json info_json(const map::SemanticMap& map, const Options& options) {
+ordered_json info_json(const map::SemanticMap& map, const map::CellGrid& grid) {
   ordered_json info{{"id", map.id},
                     {"name", map.name},
                     {"fingerprint", to_hex(map.fingerprint)},
@@ -52,18 +52,17 @@ ordered_json info_json(const map::SemanticMap& map, const Options& options) {
                     {"ground_height_m", map.ground_height_m}};
   if (map.ceiling) info["ceiling_height_m"] = map.ceiling->height_m;
   if (const map::ColumnMap* columns = map.columns()) {
-    const map::CellGrid grid = build_cell_grid(*columns, options.eye_height_m);
     info["pixels"] = {columns->columns(), columns->rows()};
     info["resolution_m"] = columns->resolution_m;
     info["size_m"] = {columns->columns() * columns->resolution_m,
                       columns->rows() * columns->resolution_m};
     info["origin"] = {columns->origin.x_m, columns->origin.y_m, columns->origin.yaw_rad};
-    info["free_cells"] = grid.free_count();
-    info["free_parts"] = grid.components().size();
   } else if (const map::MeshGeometry* mesh = map.mesh()) {
     info["vertices"] = mesh->mesh.vertices.size();
     info["triangles"] = mesh->mesh.triangles.size();
   }
+  info["free_cells"] = grid.free_count();
+  info["free_parts"] = grid.components().size();
   info["classes"] = classes_json(map);
   return info;
 }
@@ -91,7 +90,8 @@ void print_text(const ordered_json& info) {
 
 Status show(const Options& options) {
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
-  const ordered_json info = info_json(map, options);
+  SEMVIEW_TRY(const map::CellGrid grid, cell_grid_of(map, options.eye_height_m));
+  const ordered_json info = info_json(map, grid);
   if (options.json) {
     fmt::print("{}\n", info.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {

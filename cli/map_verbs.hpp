@@ -2,6 +2,10 @@
 /// The verbs under `semview map`, one file each.
 #pragma once
 
+#include "semview/core/result.hpp"
+#include "semview/map/cell_grid.hpp"
+#include "semview/map/semantic_map.hpp"
+
 namespace CLI {
 class App;
 }
@@ -14,5 +18,8 @@ void add_map_info(CLI::App& map, int& exit_code);
 void add_map_pictures(CLI::App& map, int& exit_code);  ///< preview, occupancy
 void add_map_import(CLI::App& map, int& exit_code);
 void add_map_export(CLI::App& map, int& exit_code);
+
+/// The grid of any map: from its columns, or by casting rays at its mesh.
+Result<map::CellGrid> cell_grid_of(const map::SemanticMap& map, double eye_height_m);
 
 }  // namespace semview::cli

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "semview/core/check.hpp"
-#include "semview/map/cell_grid.hpp"
 #include "semview/map/map_reader.hpp"
 
 namespace semview::map {
@@ -21,11 +20,23 @@ Path file_of(const Path& path) {
   return std::filesystem::is_directory(path, ignored) ? path / "map.yaml" : path;
 }
 
-void check_free_space(const ColumnMap& columns,
-                      double eye_height_m,
-                      const Path& file,
+}  // namespace
+
+MapCheck check_map(const Path& path, const CheckOptions& options) {
+  MapCheck check;
+  check.map = detail::read_map(path, options.load, check.report);
+  if (check.map && check.map->columns() != nullptr) {
+    const CellGrid grid = build_cell_grid(*check.map->columns(), options.eye_height_m);
+    check_free_space(grid, check.map->columns(), path, check.report);
+  }
+  return check;
+}
+
+void check_free_space(const CellGrid& grid,
+                      const ColumnMap* columns,
+                      const Path& path,
                       MapReport& report) {
-  const CellGrid grid = build_cell_grid(columns, eye_height_m);
+  const Path file = file_of(path);
   const std::vector<GridComponent> parts = grid.components();
   if (parts.empty()) {
     report.problems.push_back(file_problem(
@@ -33,8 +44,7 @@ void check_free_space(const ColumnMap& columns,
         file,
         "there is no free space: no 10 cm cell is inside the building without an obstacle between "
         "the ground and the eye",
-        fmt::format("draw floor; slabs that reach into (0.05, {}) m above the ground block a cell",
-                    eye_height_m)));
+        "draw floor; a slab between 0.05 m above the ground and the eye blocks a cell"));
     return;
   }
   if (parts.size() == 1) return;
@@ -53,19 +63,8 @@ void check_free_space(const ColumnMap& columns,
                   center.x_m,
                   center.y_m),
       "join them by a door (passable), or fill what no robot can enter");
-  problem.pixel = columns.pixel_at(center.x_m, center.y_m);
+  if (columns != nullptr) problem.pixel = columns->pixel_at(center.x_m, center.y_m);
   report.problems.push_back(std::move(problem));
-}
-
-}  // namespace
-
-MapCheck check_map(const Path& path, const CheckOptions& options) {
-  MapCheck check;
-  check.map = detail::read_map(path, options.load, check.report);
-  if (check.map && check.map->columns() != nullptr) {
-    check_free_space(*check.map->columns(), options.eye_height_m, file_of(path), check.report);
-  }
-  return check;
 }
 
 void check_unique_ids(std::span<const Path> paths, std::span<MapCheck> checks) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "semview/map/cell_grid.hpp"
 #include "semview/map/map_problem.hpp"
 #include "semview/map/semantic_map.hpp"
 
@@ -23,6 +24,14 @@ struct MapCheck {
 
 /// Checks the map at `path` (see `load_map`, which reads by the same code). @threads safe
 MapCheck check_map(const std::filesystem::path& path, const CheckOptions& options = {});
+
+/// Adds to `report` what is wrong with free space: none (an error), or parts that cannot be reached
+/// from each other (a warning, with the pixel if there are `columns`). `check_map` does so for
+/// drawn maps; the grid of a mesh takes ray casting, which this module does not have.
+void check_free_space(const CellGrid& grid,
+                      const ColumnMap* columns,
+                      const std::filesystem::path& path,
+                      MapReport& report);
 
 /// Adds an error to each map whose id another one before it has: ids are unique in a server.
 void check_unique_ids(std::span<const std::filesystem::path> paths, std::span<MapCheck> checks);
