@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// `semview view` as a person or script calls it.
+#include <cstdlib>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "semview/io/png.hpp"
+#include "semview/io/range_png.hpp"
+#include "semview/map/extrusion.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "semview/raycast/panorama_renderer.hpp"
+#include "semview/raycast/pinhole_renderer.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace semview {
+namespace {
+
+const std::string kMap = SEMVIEW_SOURCE_DIR "/maps/duplex_level1";
+
+class ViewVerbTest : public ::testing::Test {
+ protected:
+  /// Runs `semview view`, standard output and error into files; returns the exit code.
+  int view(const std::string& arguments) {
+    const std::string command = std::string(SEMVIEW_BINARY_DIR "/semview view ") + arguments +
+                                " >" + (folder_ / "out").string() + " 2>" +
+                                (folder_ / "err").string();
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string out() const { return testing::file_bytes(folder_ / "out"); }
+  std::string err() const { return testing::file_bytes(folder_ / "err"); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  static raycast::Scene scene() {
+    const auto map = map::load_map(kMap);
+    return std::move(*raycast::Scene::build(map::extrude(*map->columns())));
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(ViewVerbTest, WritesTheIdsAndMillimetresOfAPanorama) {
+  ASSERT_EQ(view(kMap + " --pose 2.35,-3.05,90 --columns 240 --rows 50 --elevation -30,40" +
+                 " --labels " + file("ids.png") + " --range " + file("mm.png") + " --image " +
+                 file("picture.png") + " --range-image " + file("ranges.png") + " --json"),
+            0)
+      << err();
+  const raycast::Panorama truth = raycast::render_panorama(
+      scene(),
+      {{2.35, -3.05, kPi / 2.0}, 1.2, {240, 50, rad_from_deg(-30.0), rad_from_deg(40.0)}, {}});
+  EXPECT_EQ(io::read_png_grey(file("ids.png")).value(), truth.labels);
+  EXPECT_EQ(io::read_png_grey16(file("mm.png")).value(), io::millimetres(truth.ranges_m));
+  EXPECT_GT(io::png_size(file("picture.png")).value().columns, 240);
+  EXPECT_GT(io::png_size(file("ranges.png")).value().columns, 240);
+  EXPECT_THAT(out(), ::testing::HasSubstr("\"engine\": \"embree\""));
+  EXPECT_THAT(out(), ::testing::HasSubstr("\"name\": \"wall\""));
+}
+
+TEST_F(ViewVerbTest, WritesAPinholeView) {
+  ASSERT_EQ(view(kMap + " --pose 2.35,-3.05,90 --pinhole 100,110,60,40,121,83 --labels " +
+                 file("ids.png") + " --range " + file("mm.png")),
+            0)
+      << err();
+  const raycast::PinholeView truth = raycast::render_pinhole(
+      scene(), {level_camera({2.35, -3.05, kPi / 2.0}, 1.2), {121, 83, 100.0, 110.0, 60.0, 40.0}});
+  EXPECT_EQ(io::read_png_grey(file("ids.png")).value(), truth.labels);
+  EXPECT_EQ(io::read_png_grey16(file("mm.png")).value(), io::millimetres(truth.depths_m));
+}
+
+TEST_F(ViewVerbTest, CastsThroughAnAffine) {
+  ASSERT_EQ(view(kMap + " --pose 2.35,-3.05,90 --affine 1.1,0.9,0.05 --labels " + file("ids.png")),
+            0)
+      << err();
+  const raycast::Panorama truth =
+      raycast::render_panorama(scene(), {{2.35, -3.05, kPi / 2.0}, 1.2, {}, {1.1, 0.9, 0.05}});
+  EXPECT_EQ(io::read_png_grey(file("ids.png")).value(), truth.labels);
+}
+
+TEST_F(ViewVerbTest, SaysWhatIsWrongWithAnOption) {
+  EXPECT_EQ(view(kMap + " --pose 1,2"), 2);
+  EXPECT_THAT(err(), ::testing::HasSubstr("--pose 1,2: expected 3"));
+  EXPECT_EQ(view(kMap + " --pose 2,-3,0 --columns 100"), 2);
+  EXPECT_THAT(err(), ::testing::HasSubstr("multiple of 120"));
+  EXPECT_EQ(view(kMap + " --pose 2,-3,0 --affine 9,1,0"), 2);
+  EXPECT_THAT(err(), ::testing::HasSubstr("within 0.2 to 5"));
+  EXPECT_EQ(view(kMap + " --pose 2,-3,0 --pinhole 100,100,1,1,64.5,48"), 2);
+  EXPECT_THAT(err(), ::testing::HasSubstr("whole numbers"));
+  EXPECT_EQ(view("no_such_map --pose 2,-3,0"), 1);
+}
+
+TEST_F(ViewVerbTest, WarnsOfAnEyeThatIsOutsideOrInAWall) {
+  EXPECT_EQ(view(kMap + " --pose 50,50,0"), 0);
+  EXPECT_THAT(err(), ::testing::HasSubstr("outside the building"));
+}
+
+}  // namespace
+}  // namespace semview
