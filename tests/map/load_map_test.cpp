@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -114,6 +116,42 @@ TEST_F(LoadMapTest, TheFirstErrorOfTheCheckIsReturned) {
 TEST_F(LoadMapTest, NothingThereIsNotFound) {
   EXPECT_EQ(load_map(folder_ / "nowhere").error().code, ErrorCode::kNotFound);
   EXPECT_EQ(load_map(folder_.path()).error().code, ErrorCode::kNotFound) << "no map.yaml in it";
+}
+
+// Mesh maps
+
+const char* const kDuplexGlb = SEMVIEW_SOURCE_DIR "/maps/duplex_building/semantic.glb";
+
+TEST_F(LoadMapTest, ABareGlbSortsItsClassesAndIsNamedAfterItsFile) {
+  std::filesystem::copy_file(kDuplexGlb, folder_ / "My Flat.glb");
+  const Result<SemanticMap> map = load_map(folder_ / "My Flat.glb");
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_EQ(map->id, "my_flat");
+  EXPECT_TRUE(std::is_sorted(map->classes.names().begin(), map->classes.names().end()));
+  EXPECT_EQ(map->ground_height_m, 0.0);
+  EXPECT_EQ(map->classes.name(map->ground_label), "floor");
+  ASSERT_NE(map->mesh(), nullptr);
+  EXPECT_EQ(map->mesh()->mesh.labels.size(), map->mesh()->mesh.triangles.size());
+}
+
+TEST_F(LoadMapTest, AMeshMapTakesIdsFromItsList) {
+  const Result<SemanticMap> map = load_map(SEMVIEW_SOURCE_DIR "/maps/duplex_building");
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_EQ(map->classes.name(1), "floor");
+  EXPECT_EQ(map->classes.name(2), "wall");
+  EXPECT_NE(map->fingerprint, load_map(kDuplexGlb)->fingerprint) << "the ids differ";
+}
+
+TEST_F(LoadMapTest, AMeshsClassesAreAllListed) {
+  std::filesystem::copy_file(kDuplexGlb, folder_ / "flat.glb");
+  testing::write_text(folder_ / "map.yaml",
+                      "semview:\n  format: 1\n  id: flat\n  mesh: flat.glb\n  classes:\n"
+                      "    - {name: floor}\n    - {name: wall}\n");
+  const Result<SemanticMap> map = load_map(folder_.path());
+  ASSERT_FALSE(map);
+  EXPECT_THAT(map.error().message, HasSubstr("flat.glb"));
+  EXPECT_THAT(map.error().message, HasSubstr("railing"));
+  EXPECT_THAT(map.error().message, HasSubstr("windowpane"));
 }
 
 }  // namespace
