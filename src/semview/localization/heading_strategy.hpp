@@ -22,7 +22,7 @@ enum class HeadingStrategy {
 /// without bound. So a reading corrects a share of a small difference and none of a large one.
 struct CompassConfig {
   double gain = 0.1;  ///< share of the difference taken over, in [0, 1]; 0 keeps steps in odometry
-  double gate_rad = 0.35;  ///< differences above this correct nothing; in [0, π]
+  double gate_rad = kPi / 9.0;  ///< differences above this correct nothing; in [0, π]
 };
 
 /// @errors kInvalidArgument: out of range; `Error::field` names it.

@@ -14,8 +14,8 @@ enum class EstimateKind {
 
 /// How the strongest mode is found.
 struct ModeConfig {
-  double radius_m = 0.5;            ///< particles this near to the mode's centre belong to it
-  double heading_radius_rad = 0.7;  ///< and this near in heading; π takes every heading
+  double radius_m = 0.5;  ///< particles this near to the mode's centre belong to it
+  double heading_radius_rad = kPi * 2.0 / 9.0;  ///< and this near in heading; π takes every heading
 };
 
 /// A pose with its uncertainty.

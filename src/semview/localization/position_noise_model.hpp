@@ -12,7 +12,7 @@ struct PositionNoiseConfig {
   /// σ of x and of y a filter step, m; >= 0. The paper's 0.5 m belongs to its 14 stops, metres
   /// apart, on distorted maps.
   double sigma_m = 0.5;
-  double heading_sigma_rad = 0.03;  ///< σ of the yaw a filter step; >= 0
+  double heading_sigma_rad = kPi / 90.0;  ///< σ of the yaw a filter step; >= 0
 };
 
 /// @errors kInvalidArgument: a parameter is negative or not finite; `Error::field` names it.

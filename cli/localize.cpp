@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "client/robot/run_log_player.hpp"
+#include "client/robot/run_outputs.hpp"
+#include "localize_options.hpp"
+#include "localize_scorer.hpp"
+#include "semview/core/log.hpp"
+#include "semview/io/run_log.hpp"
+#include "semview/io/text_file.hpp"
+#include "verb.hpp"
+
+namespace semview::cli {
+namespace {
+
+/// Tells a person how it goes: a line that renews itself on a terminal, else only the stretches
+/// that nobody could score.
+class Progress {
+ public:
+  void show(const robot::FrameReport& report, std::size_t done, std::size_t total) {
+    const bool stale = report.state == robot::FrameState::kStale;
+    if (on_terminal_) {
+      const Pose2& pose = report.estimate.map_from_robot;
+      fmt::print(stderr,
+                 "\r\x1b[Kframe {}/{}  {:.2f} {:.2f} m  {:.0f} deg  sigma {:.2f} m  N_eff {:.0f}  "
+                 "similarity {:.3f}  {}{}",
+                 done,
+                 total,
+                 pose.x_m,
+                 pose.y_m,
+                 deg_from_rad(pose.yaw_rad),
+                 localization::position_ellipse(report.estimate).major_sigma_m,
+                 report.effective_sample_size,
+                 report.scores.best_similarity,
+                 name(report.state),
+                 done == total ? "\n" : "");
+      std::fflush(stderr);
+    } else if (stale != stale_) {
+      if (stale) {
+        log_warning(fmt::format("frame {}: going on by odometry: {}", done, report.reason));
+      } else {
+        log_info(fmt::format("frame {}: scored again", done));
+      }
+    }
+    stale_ = stale;
+  }
+
+ private:
+  bool on_terminal_ = ::isatty(STDERR_FILENO) == 1;
+  bool stale_ = false;
+};
+
+/// Holds a log back to `rate` times its recorded speed.
+std::function<void(double)> pacer(double rate) {
+  if (rate <= 0.0) return {};
+  std::optional<std::pair<double, std::chrono::steady_clock::time_point>> first;
+  return [rate, first](double stamp_s) mutable {
+    if (!first) first.emplace(stamp_s, std::chrono::steady_clock::now());
+    const std::chrono::duration<double> after((stamp_s - first->first) / rate);
+    std::this_thread::sleep_until(
+        first->second + std::chrono::duration_cast<std::chrono::steady_clock::duration>(after));
+  };
+}
+
+Status write_outputs(const LocalizeOptions& options,
+                     const robot::Drive& drive,
+                     const localization::ParticleSet& particles) {
+  const std::filesystem::path track(options.output);
+  SEMVIEW_TRY_STATUS(io::write_tum(track, robot::trajectory(drive.frames)));
+  std::filesystem::path beside = track;
+  SEMVIEW_TRY_STATUS(io::write_text_file(beside.replace_extension(".frames.csv"),
+                                         robot::frames_csv(drive.frames)));
+  beside = track;
+  return io::write_text_file(beside.replace_extension(".particles.csv"),
+                             robot::particles_csv(particles));
+}
+
+void print_summary(const LocalizeOptions& options,
+                   const Scorer& scorer,
+                   const robot::Drive& drive) {
+  std::size_t scored = 0;
+  std::size_t stale = 0;
+  ViewOrigins origins;
+  for (const robot::FrameReport& frame : drive.frames) {
+    scored += frame.state == robot::FrameState::kScored ? 1 : 0;
+    stale += frame.state == robot::FrameState::kStale ? 1 : 0;
+    origins += frame.scores.origins;
+  }
+  const robot::FrameReport& last = drive.frames.back();
+  const Pose2& pose = last.estimate.map_from_robot;
+  const double sigma_m = localization::position_ellipse(last.estimate).major_sigma_m;
+  if (options.json) {
+    const nlohmann::ordered_json summary{
+        {"estimate", options.output},
+        {"weights", scorer.weights},
+        {"frames", drive.frames.size()},
+        {"scored", scored},
+        {"stale", stale},
+        {"without_odometry", drive.frames_without_odometry},
+        {"cells", {{"memory", origins.memory}, {"disk", origins.disk}, {"cast", origins.cast}}},
+        {"last",
+         {{"stamp_s", last.stamp_s},
+          {"state", name(last.state)},
+          {"x_m", pose.x_m},
+          {"y_m", pose.y_m},
+          {"yaw_deg", deg_from_rad(pose.yaw_rad)},
+          {"sigma_m", sigma_m},
+          {"weight", last.estimate.weight}}}};
+    fmt::print("{}\n", summary.dump(2));
+    return;
+  }
+  fmt::print(
+      "{}: {} frames, {} scored, {} stale; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} m); "
+      "cells: {} memory, {} disk, {} cast; weights: {}\n",
+      options.output,
+      drive.frames.size(),
+      scored,
+      stale,
+      pose.x_m,
+      pose.y_m,
+      deg_from_rad(pose.yaw_rad),
+      sigma_m,
+      origins.memory,
+      origins.disk,
+      origins.cast,
+      scorer.weights);
+}
+
+Status localize(const CLI::App& verb, const LocalizeOptions& options) {
+  SEMVIEW_TRY_STATUS(check_localize_options(verb, options));
+  SEMVIEW_TRY(const robot::LocalizerConfig config, localizer_config(options));
+  SEMVIEW_TRY(const auto motion, motion_model(options));
+  SEMVIEW_TRY(const io::RunLog log, io::read_run_log(options.log));
+  SEMVIEW_TRY(const Scorer scorer, open_scorer(options, log.setup.classes));
+  SEMVIEW_TRY(localization::ParticleSet start, first_particles(options, scorer.free_cells));
+
+  robot::Localizer localizer(config, *scorer.source, motion, std::move(start), options.seed);
+  Progress progress;
+  robot::PlayerHooks hooks;
+  hooks.wait_until = pacer(options.rate);
+  hooks.on_frame = [&](const robot::FrameReport& report, std::size_t done, std::size_t total) {
+    progress.show(report, done, total);
+  };
+  SEMVIEW_TRY(const robot::Drive drive,
+              robot::play(log, scorer.source->profile().camera, localizer, hooks));
+  SEMVIEW_TRY_STATUS(write_outputs(options, drive, localizer.particles()));
+  print_summary(options, scorer, drive);
+  return {};
+}
+
+}  // namespace
+
+void add_localize_verb(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "localize",
+      "Localize a robot in a map: Monte Carlo localization over a recorded drive, in this process "
+      "or with a server. Writes the pose of every frame as TUM text, and beside it "
+      "NAME.frames.csv (how each frame went) and NAME.particles.csv (the last particles).");
+  verb->footer(
+      "Example:\n"
+      "  semview localize --log drive --map maps/duplex_level1 --init 2,-6,90,0.3 -o est.tum\n"
+      "  semview localize --log drive --server tcp://127.0.0.1:5560 --map duplex_level1 --global "
+      "-o est.tum");
+  const auto options = std::make_shared<LocalizeOptions>();
+  add_localize_options(*verb, *options);
+  verb->callback([verb, options, &exit_code] { exit_code = report(localize(*verb, *options)); });
+}
+
+}  // namespace semview::cli

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "localize_options.hpp"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "semview/geometry/angle.hpp"
+#include "semview/localization/initialization.hpp"
+#include "verb.hpp"
+
+namespace semview::cli {
+namespace {
+
+constexpr std::size_t kLocalParticles = 500;
+constexpr std::size_t kGlobalParticles = 2000;
+constexpr std::size_t kMostParticles = 1'000'000;
+
+tl::unexpected<Error> usage(const std::string& option, const std::string& message) {
+  return fail(Error{ErrorCode::kInvalidArgument, fmt::format("{}: {}", option, message), option});
+}
+
+/// The modules name their own fields; people typed options.
+Status as_option(const Status& status) {
+  if (status) return {};
+  static const std::map<std::string, std::string> kOptions{
+      {"resample_threshold", "--resample-threshold"},
+      {"gain", "--compass-gain"},
+      {"gate_rad", "--compass-gate"},
+      {"sigma_m", "--sigma"},
+      {"heading_sigma_rad", "--heading-sigma"}};
+  const std::string& field = status.error().field;
+  const auto known = kOptions.find(field);
+  return usage(known != kOptions.end() ? known->second : "--" + field, status.error().message);
+}
+
+/// Puts the options that `verb` has got since `first` under a heading of their own.
+void group_since(CLI::App& verb, std::size_t first, const std::string& heading) {
+  const std::vector<CLI::Option*> all = verb.get_options();
+  for (std::size_t i = first; i < all.size(); ++i) all[i]->group(heading);
+}
+
+void add_start_options(CLI::App& verb, LocalizeOptions& options) {
+  auto* init = verb.add_option("--init",
+                               options.init,
+                               "Known start, the pose at the log's first frame: metres, degrees "
+                               "counter-clockwise, sigma in metres")
+                   ->type_name("X,Y,YAW_DEG,SIGMA");
+  verb.add_option("--init-heading-sigma",
+                  options.init_heading_sigma_deg,
+                  "Uncertainty of --init's heading in degrees")
+      ->capture_default_str();
+  verb.add_flag("--global", options.global, "Unknown start: anywhere in the map's free space")
+      ->excludes(init);
+  verb.add_option(
+          "--particles", options.particles, "Number of particles (default 500, 2000 with --global)")
+      ->check(CLI::Range(std::size_t{1}, kMostParticles));
+  verb.add_option("--seed", options.seed, "Seed of every random number")->capture_default_str();
+}
+
+void add_motion_options(CLI::App& verb, LocalizeOptions& options) {
+  verb.add_option(
+          "--motion", options.motion, "Motion model: `odometry` (alpha1..4) or `paper` (--sigma)")
+      ->check(CLI::IsMember({"odometry", "paper"}))
+      ->capture_default_str();
+  verb.add_option("--alpha1", options.alphas.alpha1, "Rotation noise from rotation")
+      ->capture_default_str();
+  verb.add_option("--alpha2", options.alphas.alpha2, "Rotation noise from translation, rad2/m2")
+      ->capture_default_str();
+  verb.add_option("--alpha3", options.alphas.alpha3, "Translation noise from translation")
+      ->capture_default_str();
+  verb.add_option("--alpha4", options.alphas.alpha4, "Translation noise from rotation, m2/rad2")
+      ->capture_default_str();
+  verb.add_option("--sigma", options.sigma_m, "--motion paper: position noise a frame in m")
+      ->capture_default_str();
+  options.heading_sigma_deg = deg_from_rad(localization::PositionNoiseConfig{}.heading_sigma_rad);
+  verb.add_option("--heading-sigma",
+                  options.heading_sigma_deg,
+                  "--motion paper: heading noise a frame in degrees")
+      ->capture_default_str();
+}
+
+void add_filter_options(CLI::App& verb, LocalizeOptions& options) {
+  verb.add_option("--heading",
+                  options.heading,
+                  "Heading from `odometry`, or from the visual `compass` (all 120 headings)")
+      ->check(CLI::IsMember({"odometry", "compass"}))
+      ->capture_default_str();
+  verb.add_option("--compass-gain",
+                  options.compass_gain,
+                  "Share of a small difference by which the compass corrects the odometry heading")
+      ->capture_default_str();
+  options.compass_gate_deg = deg_from_rad(localization::CompassConfig{}.gate_rad);
+  verb.add_option("--compass-gate",
+                  options.compass_gate_deg,
+                  "Differences above this many degrees correct nothing")
+      ->capture_default_str();
+  verb.add_option("--weighting",
+                  options.weighting,
+                  "Weight from similarity: `power` (s^p) or `exponential` (e^(kappa s))")
+      ->check(CLI::IsMember({"power", "exponential"}))
+      ->capture_default_str();
+  verb.add_option("--power", options.power, "p of --weighting power")->capture_default_str();
+  verb.add_option("--kappa", options.kappa, "kappa of --weighting exponential")
+      ->capture_default_str();
+  verb.add_option("--resample-threshold",
+                  options.resample_threshold,
+                  "Resample when the effective sample size falls below this share; 1: every frame")
+      ->capture_default_str();
+  verb.add_option("--estimate",
+                  options.estimate,
+                  "Reported pose: strongest `mode`, weighted `mean`, or `best` particle")
+      ->check(CLI::IsMember({"mode", "mean", "best"}))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_localize_options(CLI::App& verb, LocalizeOptions& options) {
+  verb.add_option("--log", options.log, "Run log: a folder with log.yaml")
+      ->type_name("DIR")
+      ->required();
+  verb.add_option("--map", options.map, "Map folder, map.yaml or .glb; with --server the map's id")
+      ->type_name("MAP")
+      ->required();
+  verb.add_option("--server", options.server, "Let this server score")
+      ->type_name("tcp://HOST:PORT");
+  verb.add_option("--weights",
+                  options.weights,
+                  "Weight matrix (default: the map's own weights.csv, else the identity where the "
+                  "log's classes are the map's)")
+      ->type_name("FILE.csv");
+  verb.add_option("-o,--out", options.output, "Estimated trajectory, TUM text")
+      ->type_name("FILE.tum")
+      ->required();
+  verb.add_option(
+          "--rate", options.rate, "Play the log at this multiple of its speed; 0: no waiting")
+      ->capture_default_str();
+  verb.add_option("--timeout", options.timeout_s, "Longest wait for the server in seconds")
+      ->capture_default_str();
+  verb.add_flag("--json", options.json, "Print a summary as JSON");
+
+  const auto begin_group = [&verb] { return verb.get_options().size(); };
+  std::size_t first = begin_group();
+  add_start_options(verb, options);
+  group_since(verb, first, "Start");
+  first = begin_group();
+  add_filter_options(verb, options);
+  group_since(verb, first, "Filter");
+  first = begin_group();
+  add_motion_options(verb, options);
+  group_since(verb, first, "Motion");
+  first = begin_group();
+  add_site_options(verb, options.site, false);
+  // The map is named by --map, which with --server is an id and no path.
+  verb.remove_option(verb.get_option("map"));
+  group_since(verb, first, "Map in this process");
+}
+
+Status check_localize_options(const CLI::App& verb, const LocalizeOptions& options) {
+  if (options.init.empty() && !options.global) {
+    return usage("--init", "expected a start: --init X,Y,YAW_DEG,SIGMA or --global");
+  }
+  if (!(options.rate >= 0.0) || !std::isfinite(options.rate)) {
+    return usage("--rate", fmt::format("{}: expected a number >= 0", options.rate));
+  }
+  if (!(options.timeout_s >= 0.001 && options.timeout_s <= 3600.0)) {
+    return usage("--timeout", fmt::format("{}: expected 0.001 to 3600 s", options.timeout_s));
+  }
+  if (!(options.init_heading_sigma_deg >= 0.0 && options.init_heading_sigma_deg <= 360.0)) {
+    return usage("--init-heading-sigma",
+                 fmt::format("{}: expected 0 to 360", options.init_heading_sigma_deg));
+  }
+  if (options.server.empty()) return {};
+  for (const char* option : {"--engine",
+                             "--eye-height",
+                             "--columns",
+                             "--rows",
+                             "--elevation",
+                             "--cache",
+                             "--cache-limit",
+                             "--nearest-colour"}) {
+    if (verb.get_option(option)->count() == 0) continue;
+    return usage(option, "is the server's own choice; leave it out with --server");
+  }
+  return {};
+}
+
+Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) {
+  robot::LocalizerConfig config;
+  config.heading = options.heading == "compass" ? localization::HeadingStrategy::kCompass
+                                                : localization::HeadingStrategy::kOdometry;
+  config.filter.resample_threshold = options.resample_threshold;
+  config.filter.compass.gain = options.compass_gain;
+  config.filter.compass.gate_rad = rad_from_deg(options.compass_gate_deg);
+  config.weighting.transform = options.weighting == "power"
+                                   ? observation::WeightTransform::kPower
+                                   : observation::WeightTransform::kExponential;
+  config.weighting.power = options.power;
+  config.weighting.kappa = options.kappa;
+  config.estimate = options.estimate == "best"   ? localization::EstimateKind::kHighestWeight
+                    : options.estimate == "mean" ? localization::EstimateKind::kWeightedMean
+                                                 : localization::EstimateKind::kStrongestMode;
+  SEMVIEW_TRY_STATUS(as_option(validate(config)));
+  return config;
+}
+
+Result<std::shared_ptr<const localization::MotionModel>> motion_model(
+    const LocalizeOptions& options) {
+  if (options.motion == "odometry") {
+    SEMVIEW_TRY_STATUS(as_option(validate(options.alphas)));
+    return std::make_shared<localization::OdometryMotionModel>(options.alphas);
+  }
+  const localization::PositionNoiseConfig config{options.sigma_m,
+                                                 rad_from_deg(options.heading_sigma_deg)};
+  SEMVIEW_TRY_STATUS(as_option(validate(config)));
+  return std::make_shared<localization::PositionNoiseModel>(config);
+}
+
+Result<localization::ParticleSet> first_particles(const LocalizeOptions& options,
+                                                  std::span<const CellIndex> free_cells) {
+  const std::size_t usual = options.global ? kGlobalParticles : kLocalParticles;
+  const std::size_t count = options.particles > 0 ? options.particles : usual;
+  Rng rng(options.seed, "initialization");
+  if (options.global) {
+    if (free_cells.empty()) {
+      return fail(ErrorCode::kFailedPrecondition,
+                  fmt::format("{}: --global needs free space, and the map has none", options.map));
+    }
+    return localization::uniform_particles(free_cells, count, rng);
+  }
+  SEMVIEW_TRY(const std::vector<double> start, parse_numbers("--init", options.init, 4));
+  if (start[3] < 0.0) return usage("--init", "SIGMA is below 0");
+  return localization::gaussian_particles({start[0], start[1], wrap_angle(rad_from_deg(start[2]))},
+                                          start[3],
+                                          rad_from_deg(options.init_heading_sigma_deg),
+                                          count,
+                                          rng);
+}
+
+}  // namespace semview::cli

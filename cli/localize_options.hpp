@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The options of `semview localize`, and what they make of the filter.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "client/robot/localizer.hpp"
+#include "semview/geometry/pose_grid.hpp"
+#include "semview/localization/odometry_motion_model.hpp"
+#include "semview/localization/particle_set.hpp"
+#include "semview/localization/position_noise_model.hpp"
+#include "site_options.hpp"
+
+namespace semview::cli {
+
+/// As given on the command line; docs/localization.md explains each.
+struct LocalizeOptions {
+  std::string log;
+  std::string server;  ///< empty: in this process
+  std::string map;     ///< a folder or file in this process, an id with --server
+  std::string weights;
+  std::string output;
+  std::uint64_t seed = 1;
+  std::size_t particles = 0;  ///< 0: 500, or 2000 with --global
+  std::string init;
+  double init_heading_sigma_deg = 10.0;
+  bool global = false;
+  std::string heading = "odometry";
+  std::string motion = "odometry";
+  localization::OdometryMotionConfig alphas = {};
+  double sigma_m = localization::PositionNoiseConfig{}.sigma_m;
+  double heading_sigma_deg = 0.0;
+  std::string weighting = "power";
+  double power = observation::SimilarityWeightingConfig{}.power;
+  double kappa = observation::SimilarityWeightingConfig{}.kappa;
+  std::string estimate = "mode";
+  double resample_threshold = localization::ParticleFilterConfig{}.resample_threshold;
+  double compass_gain = localization::CompassConfig{}.gain;
+  double compass_gate_deg = 0.0;
+  double rate = 0.0;
+  double timeout_s = 5.0;
+  bool json = false;
+  SiteOptions site = {};
+};
+
+/// Declares the options; `options` must outlive the parse.
+void add_localize_options(CLI::App& verb, LocalizeOptions& options);
+
+/// What belongs together, and what the numbers may be.
+/// @errors kInvalidArgument, with the option as the field.
+Status check_localize_options(const CLI::App& verb, const LocalizeOptions& options);
+
+/// @errors kInvalidArgument, with the option as the field.
+Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options);
+Result<std::shared_ptr<const localization::MotionModel>> motion_model(
+    const LocalizeOptions& options);
+
+/// Around --init, or over `free_cells` with --global.
+/// @errors kInvalidArgument: --init is no pose; kFailedPrecondition: no free cell.
+Result<localization::ParticleSet> first_particles(const LocalizeOptions& options,
+                                                  std::span<const CellIndex> free_cells);
+
+}  // namespace semview::cli
