@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "observation_option.hpp"
 #include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/npy.hpp"
-#include "semview/io/observation_folder.hpp"
 #include "semview/io/png.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/occupancy.hpp"
@@ -32,7 +32,7 @@ using nlohmann::ordered_json;
 
 struct Options {
   SiteOptions site;
-  std::string observation;
+  ObservationOption observation;
   std::string weights;
   std::string output;
   std::string npy;
@@ -113,8 +113,7 @@ Status heatmap(const Options& options) {
   SEMVIEW_TRY(const similarity::WeightMatrix weights,
               similarity::read_weight_matrix(options.weights));
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
-  SEMVIEW_TRY(const Observation observation,
-              io::read_observation(options.observation, site->profile().camera));
+  SEMVIEW_TRY(const Observation observation, read(options.observation, site->profile().camera));
   SEMVIEW_TRY(const similarity::PreparedObservation prepared,
               similarity::PreparedObservation::build(
                   observation, weights, site->map().classes, site->profile().camera));
@@ -163,9 +162,7 @@ void add_heatmap_verb(CLI::App& app, int& exit_code) {
       "fits: the similarity of the best heading on the 10 cm grid.");
   const auto options = std::make_shared<Options>();
   add_site_options(*verb, options->site);
-  verb->add_option("--obs", options->observation, "Observation folder")
-      ->type_name("DIR")
-      ->required();
+  add_observation_option(*verb, options->observation);
   verb->add_option("--weights", options->weights, "Weight matrix")
       ->type_name("FILE.csv")
       ->required();

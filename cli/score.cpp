@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "observation_option.hpp"
 #include "pose_list.hpp"
 #include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
-#include "semview/io/observation_folder.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "site_options.hpp"
@@ -25,7 +25,7 @@ using nlohmann::ordered_json;
 
 struct Options {
   SiteOptions site;
-  std::string observation;
+  ObservationOption observation;
   std::string weights;
   std::string pose;
   std::string poses;
@@ -143,8 +143,7 @@ Status score(const Options& options) {
   SEMVIEW_TRY(const ScoreRequest request, request_of(options));
   SEMVIEW_TRY(similarity::WeightMatrix weights, similarity::read_weight_matrix(options.weights));
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
-  SEMVIEW_TRY(const Observation observation,
-              io::read_observation(options.observation, site->profile().camera));
+  SEMVIEW_TRY(const Observation observation, read(options.observation, site->profile().camera));
   similarity::SimilarityScoreSource source(
       site->views(), site->map().classes, std::move(weights), site->pool());
   SEMVIEW_TRY_STATUS(source.set_observation(observation));
@@ -167,9 +166,7 @@ void add_score_verb(CLI::App& app, int& exit_code) {
       "headings are tried at each position and the best is reported.");
   const auto options = std::make_shared<Options>();
   add_site_options(*verb, options->site);
-  verb->add_option("--obs", options->observation, "Observation folder")
-      ->type_name("DIR")
-      ->required();
+  add_observation_option(*verb, options->observation);
   verb->add_option("--weights", options->weights, "Weight matrix")
       ->type_name("FILE.csv")
       ->required();

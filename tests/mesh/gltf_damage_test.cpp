@@ -52,7 +52,7 @@ TEST(GltfDamageTest, EveryTruncationIsDataLoss) {
 }
 
 TEST(GltfDamageTest, ChangedBytesNeverCrash) {
-  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
     Rng rng(seed, "bytes");
     std::string bytes = sound_file();
     // Two in three within the header and the JSON, where the damage can be read as anything.
@@ -100,12 +100,8 @@ TEST(GltfDamageTest, NonsenseInAnyPlaceOfTheJsonNeverCrashes) {
                                    json::object(),
                                    json::array({1, 2, 3}),
                                    json::parse("[[[[{}]]]]")};
-  // One in three combinations, each place and each value several times: seconds, not minutes, under
-  // AddressSanitizer.
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    for (std::size_t n = k % 3; n < nonsense.size(); n += 3) {
-      const json::json_pointer& place = places[k];
-      const json& value = nonsense[n];
+  for (const auto& place : places) {
+    for (const json& value : nonsense) {
       json damaged = sound;
       damaged[place] = value;
       expect_error_or_sound_mesh(join_glb(damaged.dump(), chunks.binary).value());

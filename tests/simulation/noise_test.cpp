@@ -137,8 +137,7 @@ TEST(SegmentationNoiseTest, EdgesWaverByAboutTheConfiguredAngle) {
 
 TEST(SegmentationNoiseTest, OnlyKnownIdsAndUnknownAppear) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const LabelImage seen = noisy(picture(), 3.0, seed);
-    for (const ClassId label : seen.pixels()) {
+    for (const ClassId label : noisy(picture(), 3.0, seed).pixels()) {
       ASSERT_TRUE((label >= 1 && label <= 6) || label == kUnknown) << int{label};
     }
   }
