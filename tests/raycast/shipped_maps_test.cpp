@@ -63,7 +63,7 @@ TEST_P(ShippedMapTest, NoRayLeavesTheBuildingWhereItIsClosed) {
   const PanoramaCamera camera{360, 180, -kPi / 2.0, kPi / 2.0};
   for (const bool robust : {true, false}) {
     const auto scene = Scene::build(mesh_, {robust});
-    for (const Pose2& pose : poses(50)) {
+    for (const Pose2& pose : poses(25)) {
       const Panorama panorama = render_panorama(*scene, {pose, eye_z_m_, camera, {}});
       for (int r = 0; r < camera.rows; ++r) {
         for (int c = 0; c < camera.columns; ++c) {
