@@ -11,12 +11,12 @@
 #include <unistd.h>
 
 #include "observation_option.hpp"
+#include "plan_backdrop.hpp"
 #include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/npy.hpp"
 #include "semview/io/png.hpp"
 #include "semview/map/cell_grid.hpp"
-#include "semview/map/occupancy.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/picture/heat_picture.hpp"
 #include "semview/similarity/heat_map.hpp"
@@ -90,10 +90,7 @@ RgbImage draw(const service::Site& site, const similarity::HeatMap& heat) {
   picture.y_min_m = heat.origin.iy * PoseGrid::kCellSize_m;
   picture.best = PoseGrid::center(heat.best());
   picture.title = site.map().name;
-  if (const map::ColumnMap* columns = site.map().columns()) {
-    picture.plan = picture::Plan{
-        map::plan_image(site.map(), *columns), columns->resolution_m, columns->origin};
-  }
+  if (Result<picture::Plan> plan = plan_backdrop(site.map())) picture.plan = *std::move(plan);
   return picture::draw_heat_map(picture);
 }
 
