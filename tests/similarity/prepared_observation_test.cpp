@@ -85,10 +85,10 @@ TEST(PreparedObservationTest, TheLargestSumsOfTheLargestPanoramaAreExact) {
   }
 }
 
-TEST(PreparedObservationTest, EveryNumberOfRowsKeepsAFullColumnWithinSixteenBits) {
+TEST(PreparedObservationTest, AnyNumberOfRowsKeepsAFullColumnWithinSixteenBits) {
   PanoramaCamera camera;
   camera.columns = 120;
-  for (camera.rows = 1; camera.rows <= kMaxPanoramaRows; camera.rows += 7) {
+  for (camera.rows = 1; camera.rows <= kMaxPanoramaRows; camera.rows += 41) {
     for (const double weight : {1.0, -1.0, 0.5, -0.51, 0.9999, 3.7}) {
       const auto prepared =
           PreparedObservation::build(all_of(1, camera), weights_of(weight), kWallFloor, camera);
