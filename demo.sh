@@ -102,10 +102,10 @@ $failed && { cat "$out/server.log"; die "a localizer failed, see above"; }
 
 say "Pictures"
 log=$out/robot${robots[0]}
-here=$(start_of "$log")
+here=4.5,-13.2,-120  # the living room
 "$semview" view "$map" --pose "$here" --image "$out/view_labels.png" \
   --range-image "$out/view_range.png" || die "drawing the views failed, see above"
-"$semview" heatmap "$map" --obs "$log" --frame 0 --weights "$map/weights.csv" \
+"$semview" heatmap "$map" --obs "$log" --frame 10 --weights "$map/weights.csv" \
   --cache "$out/cache" -o "$out/heatmap.png" || die "drawing the heat map failed, see above"
 
 say "Results"
