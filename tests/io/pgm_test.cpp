@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/io/pgm.hpp"
 
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,13 +12,14 @@ namespace semview::io {
 namespace {
 
 using semview::testing::TemporaryFolder;
+using namespace std::string_literals;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(PgmTest, ReadsBinaryWithComments) {
   const TemporaryFolder folder;
-  const auto path = folder.write(
-      "a.pgm", std::string("P5\n# made by hand\n3 # wide\n2\n255\n\x00\x01\xff\x02\x03\n", 43));
+  const auto path =
+      folder.write("a.pgm", "P5\n# made by hand\n3 # wide\n2\n255\n\x00\x01\xff\x02\x03\n"s);
   const Result<Image<std::uint8_t>> image = read_pgm(path);
   ASSERT_TRUE(image) << image.error().message;
   EXPECT_EQ(image->rows(), 2);
