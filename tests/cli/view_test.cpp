@@ -13,6 +13,7 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview {

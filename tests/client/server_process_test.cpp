@@ -13,6 +13,7 @@
 #include "client/lib/remote_score_source.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "server/room.hpp"
+#include "support/paths.hpp"
 
 namespace semview::test {
 namespace {

@@ -15,6 +15,7 @@
 
 #include "semview/geometry/angle.hpp"
 #include "semview/io/trajectory.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -19,6 +19,7 @@
 
 #include "semview/cache/lmdb_store.hpp"
 #include "semview/core/random.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview {

@@ -10,6 +10,7 @@
 
 #include "semview/io/png.hpp"
 #include "semview/io/run_log.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview {

@@ -6,6 +6,7 @@
 
 #include "map/bundle.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "support/paths.hpp"
 
 namespace semview::map {
 namespace {

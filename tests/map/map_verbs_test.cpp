@@ -11,6 +11,7 @@
 
 #include "map/bundle.hpp"
 #include "semview/io/png.hpp"
+#include "support/paths.hpp"
 
 namespace semview::map {
 namespace {

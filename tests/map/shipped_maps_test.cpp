@@ -6,6 +6,7 @@
 
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/map_checker.hpp"
+#include "support/paths.hpp"
 
 namespace semview::map {
 namespace {

@@ -12,6 +12,7 @@
 #include "mesh/furnished_room.hpp"
 #include "semview/map/extrusion.hpp"
 #include "semview/map/gltf_write.hpp"
+#include "support/paths.hpp"
 
 namespace semview::map {
 namespace {

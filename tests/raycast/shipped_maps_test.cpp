@@ -10,6 +10,7 @@
 #include "semview/map/extrusion.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
+#include "support/paths.hpp"
 
 namespace semview::raycast {
 namespace {

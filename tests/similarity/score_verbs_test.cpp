@@ -16,6 +16,7 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/service/site.hpp"
+#include "support/paths.hpp"
 
 namespace semview {
 namespace {

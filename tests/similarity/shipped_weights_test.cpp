@@ -7,6 +7,7 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/vocabulary.hpp"
 #include "semview/similarity/weight_proposal.hpp"
+#include "support/paths.hpp"
 
 namespace semview::similarity {
 namespace {

@@ -15,6 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/paths.hpp"
+
 namespace semview::testing {
 
 /// A started program of the build; ended with SIGKILL if it still runs when this goes.
