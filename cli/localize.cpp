@@ -30,9 +30,11 @@ namespace {
 /// that nobody could score.
 class Progress {
  public:
+  static bool on_terminal() { return ::isatty(STDERR_FILENO) == 1; }
+
   void show(const robot::FrameReport& report, std::size_t done, std::size_t total) {
     const bool stale = report.state == robot::FrameState::kStale;
-    if (on_terminal_) {
+    if (on_terminal()) {
       const Pose2& pose = report.estimate.map_from_robot;
       fmt::print(stderr,
                  "\r\x1b[Kframe {}/{}  {:.2f} {:.2f} m  {:.0f} deg  sigma {:.2f} m  N_eff {:.0f}  "
@@ -59,7 +61,6 @@ class Progress {
   }
 
  private:
-  bool on_terminal_ = ::isatty(STDERR_FILENO) == 1;
   bool stale_ = false;
 };
 
@@ -147,6 +148,9 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
   SEMVIEW_TRY(const Scorer scorer, open_scorer(options, log.setup.classes));
   SEMVIEW_TRY(localization::ParticleSet start, first_particles(options, scorer.free_cells));
 
+  if (!Progress::on_terminal()) {
+    log_info(fmt::format("localizing {} frames; weights: {}", log.frames.size(), scorer.weights));
+  }
   robot::Localizer localizer(config, *scorer.source, motion, std::move(start), options.seed);
   Progress progress;
   robot::PlayerHooks hooks;

@@ -84,11 +84,12 @@ void add_motion_options(CLI::App& verb, LocalizeOptions& options) {
 }
 
 void add_filter_options(CLI::App& verb, LocalizeOptions& options) {
-  verb.add_option("--heading",
-                  options.heading,
-                  "Heading from `odometry`, or from the visual `compass` (all 120 headings)")
-      ->check(CLI::IsMember({"odometry", "compass"}))
-      ->capture_default_str();
+  verb.add_option(
+          "--heading",
+          options.heading,
+          "Heading from `odometry`, or from the visual `compass`, the best of all 120 headings "
+          "(default: odometry; compass with --global)")
+      ->check(CLI::IsMember({"odometry", "compass"}));
   verb.add_option("--compass-gain",
                   options.compass_gain,
                   "Share of a small difference by which the compass corrects the odometry heading")
@@ -191,8 +192,9 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
 
 Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) {
   robot::LocalizerConfig config;
-  config.heading = options.heading == "compass" ? localization::HeadingStrategy::kCompass
-                                                : localization::HeadingStrategy::kOdometry;
+  const bool compass = options.heading.empty() ? options.global : options.heading == "compass";
+  config.heading =
+      compass ? localization::HeadingStrategy::kCompass : localization::HeadingStrategy::kOdometry;
   config.filter.resample_threshold = options.resample_threshold;
   config.filter.compass.gain = options.compass_gain;
   config.filter.compass.gate_rad = rad_from_deg(options.compass_gate_deg);

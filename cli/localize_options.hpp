@@ -29,7 +29,7 @@ struct LocalizeOptions {
   std::string init;
   double init_heading_sigma_deg = 10.0;
   bool global = false;
-  std::string heading = "odometry";
+  std::string heading;  ///< empty: odometry, or compass with --global
   std::string motion = "odometry";
   localization::OdometryMotionConfig alphas = {};
   double sigma_m = localization::PositionNoiseConfig{}.sigma_m;

@@ -2,14 +2,16 @@
 #include "localize_scorer.hpp"
 
 #include <chrono>
-#include <filesystem>
 #include <optional>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "client/lib/remote_maps.hpp"
 #include "client/lib/remote_score_source.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/service/shipped_weights.hpp"
 #include "semview/service/site.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "semview/similarity/weight_matrix.hpp"
@@ -22,8 +24,9 @@ struct ChosenWeights {
   std::string name;
 };
 
+/// `shipped_csv` is the map's own matrix, empty if it has none.
 Result<ChosenWeights> choose_weights(const LocalizeOptions& options,
-                                     const std::optional<std::filesystem::path>& map_folder,
+                                     const std::string& shipped_csv,
                                      const ClassTable& observed,
                                      const ClassTable& map) {
   if (!options.weights.empty()) {
@@ -32,21 +35,24 @@ Result<ChosenWeights> choose_weights(const LocalizeOptions& options,
     if (!fits) return with_context(std::move(fits), options.weights);
     return ChosenWeights{std::move(matrix), options.weights};
   }
-  std::optional<Error> shipped_error;
-  if (map_folder && std::filesystem::exists(*map_folder / "weights.csv")) {
-    const std::string path = (*map_folder / "weights.csv").string();
-    SEMVIEW_TRY(similarity::WeightMatrix matrix, similarity::read_weight_matrix(path));
-    Status fits = matrix.check(observed, map);
-    if (fits) return ChosenWeights{std::move(matrix), path};
-    shipped_error = with_context(std::move(fits), path).value();
+  const std::string shipped_name = options.map + ": weights.csv";
+  std::optional<Error> misfit;
+  if (!shipped_csv.empty()) {
+    SEMVIEW_TRY(similarity::WeightMatrix matrix,
+                similarity::parse_weight_matrix(shipped_csv, shipped_name));
+    const Status fits = matrix.check(observed, map);
+    if (fits) return ChosenWeights{std::move(matrix), shipped_name};
+    misfit = fits.error();
   }
   similarity::WeightMatrix identity = similarity::WeightMatrix::identity(map);
   if (identity.check(observed, map)) return ChosenWeights{std::move(identity), "identity"};
-  if (shipped_error) return fail(*std::move(shipped_error));
   return fail(Error{ErrorCode::kInvalidArgument,
-                    "--weights: the log's classes are not the map's, so a weight matrix is needed",
+                    misfit
+                        ? fmt::format("--weights is needed: {}: {}", shipped_name, misfit->message)
+                        : "--weights is needed: the log's classes are not the map's, and the map "
+                          "has no weights.csv",
                     "--weights",
-                    "make one with `semview weights init`"});
+                    "make a matrix with `semview weights init`"});
 }
 
 Result<Scorer> open_in_process(const LocalizeOptions& options, const ClassTable& observed) {
@@ -55,7 +61,8 @@ Result<Scorer> open_in_process(const LocalizeOptions& options, const ClassTable&
   Scorer scorer;
   SEMVIEW_TRY(scorer.site, open_site(site_options));
   const map::SemanticMap& map = scorer.site->map();
-  SEMVIEW_TRY(ChosenWeights weights, choose_weights(options, map.directory, observed, map.classes));
+  SEMVIEW_TRY(const std::string shipped, service::shipped_weights_csv(map.directory));
+  SEMVIEW_TRY(ChosenWeights weights, choose_weights(options, shipped, observed, map.classes));
   scorer.weights = std::move(weights.name);
   scorer.source = std::make_unique<similarity::SimilarityScoreSource>(
       scorer.site->views(), map.classes, std::move(weights.matrix), scorer.site->pool());
@@ -75,7 +82,8 @@ Result<Scorer> open_remote(const LocalizeOptions& options, const ClassTable& obs
   }
   SEMVIEW_TRY(client::Connection connection, client::Connection::open(config));
   SEMVIEW_TRY(protocol::MapDescription map, client::get_map(connection, options.map));
-  SEMVIEW_TRY(ChosenWeights weights, choose_weights(options, std::nullopt, observed, map.classes));
+  SEMVIEW_TRY(ChosenWeights weights,
+              choose_weights(options, map.weights_csv, observed, map.classes));
   Scorer scorer;
   scorer.weights = std::move(weights.name);
   scorer.free_cells = std::move(map.free_cells);

@@ -10,6 +10,7 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/protocol/envelope.hpp"
 #include "semview/protocol/map_wire.hpp"
+#include "semview/service/shipped_weights.hpp"
 #include "semview/v1/maps.pb.h"
 
 namespace semview::server {
@@ -78,6 +79,7 @@ Result<Plan> plan_get_map(Services& services, const Request& request) {
   SEMVIEW_TRY(const auto wire, protocol::parse<v1::GetMapRequest>(request.body, "body"));
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, find_site(services, wire.map_id(), {}));
   protocol::MapDescription map = describe(*site);
+  SEMVIEW_TRY(map.weights_csv, service::shipped_weights_csv(site->map().directory));
   if (wire.with_glb()) {
     SEMVIEW_TRY(map.glb, glb_of(site->map()));
   }

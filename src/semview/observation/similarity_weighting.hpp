@@ -14,7 +14,7 @@ enum class WeightTransform {
 
 struct SimilarityWeightingConfig {
   WeightTransform transform = WeightTransform::kPower;
-  double power = 12.0;  ///< p, > 0; 1 is plain proportionality
+  double power = 20.0;  ///< p, > 0; 1 is plain proportionality
   double kappa = 60.0;  ///< κ, > 0
 };
 

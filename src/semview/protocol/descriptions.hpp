@@ -38,6 +38,7 @@ struct MapDescription {
   std::string engine_reason;          ///< why this engine serves the map
   std::vector<CellIndex> free_cells;  ///< row by row
   std::string glb;                    ///< binary glTF, if it was asked for
+  std::string weights_csv;            ///< the map's own weight matrix; empty: it has none
 
   bool operator==(const MapDescription&) const = default;
 };

@@ -144,6 +144,7 @@ v1::GetMapReply to_wire(const MapDescription& map) {
   wire.set_engine_reason(map.engine_reason);
   *wire.mutable_free_cells() = to_wire(std::span(map.free_cells));
   wire.set_glb(map.glb);
+  wire.set_weights_csv(map.weights_csv);
   return wire;
 }
 
@@ -165,6 +166,7 @@ Result<MapDescription> from_wire(const v1::GetMapReply& wire) {
   map.engine_version = wire.engine_version();
   map.engine_reason = wire.engine_reason();
   map.glb = wire.glb();
+  map.weights_csv = wire.weights_csv();
   return map;
 }
 
