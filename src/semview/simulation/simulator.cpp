@@ -17,6 +17,7 @@
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/scene.hpp"
 #include "semview/simulation/free_space.hpp"
+#include "semview/simulation/indoors.hpp"
 #include "semview/view/view_profile.hpp"
 
 namespace semview::simulation {
@@ -100,7 +101,8 @@ Result<Stage> set_stage(const map::SemanticMap& map,
     SEMVIEW_TRY(raycast::Scene scene, raycast::Scene::build(map.mesh()->mesh));
     SEMVIEW_TRY(const map::CellGrid grid,
                 raycast::build_cell_grid(scene, map.ground_height_m, config.camera.height_m));
-    SEMVIEW_TRY(Moments moments, drive_through(grid, config, report));
+    const double eye_z_m = map.ground_height_m + config.camera.height_m;
+    SEMVIEW_TRY(Moments moments, drive_through(indoor_cells(grid, scene, eye_z_m), config, report));
     return Stage{std::move(scene), std::move(moments)};
   }
   Rng rng(config.seed, "layout");
@@ -109,7 +111,9 @@ Result<Stage> set_stage(const map::SemanticMap& map,
   report.furniture = world.furniture;
   report.missing = world.missing;
   const map::CellGrid grid = map::build_cell_grid(world.plan, config.camera.height_m);
-  SEMVIEW_TRY(Moments moments, drive_through(grid, config, report));
+  SEMVIEW_TRY(const raycast::Scene shut, raycast::Scene::build(map::extrude(world.plan)));
+  const double eye_z_m = world.plan.ground_height_m + config.camera.height_m;
+  SEMVIEW_TRY(Moments moments, drive_through(indoor_cells(grid, shut, eye_z_m), config, report));
   std::vector<Point2> way;
   for (const io::StampedPose2& sample : moments.groundtruth) {
     way.push_back({sample.pose.x_m, sample.pose.y_m});
