@@ -98,10 +98,12 @@ TEST_F(PrecomputeKillTest, TwentyKillsLeaveTheRecordsOfAnUninterruptedRun) {
   for (int tries = 0; kills < 20; ++tries) {
     ASSERT_LT(tries, 100);
     const pid_t child = start("killed", kills % 2 == 0 ? "2" : "1");
-    std::this_thread::sleep_for(std::chrono::duration<double>(rng.uniform(0, whole_s.count() / 8)));
+    std::this_thread::sleep_for(
+        std::chrono::duration<double>(rng.uniform(0, whole_s.count() / 16)));
     kill(child, SIGKILL);
     const int status = wait_for(child);
     if (WIFSIGNALED(status)) {
+      ASSERT_EQ(WTERMSIG(status), SIGKILL);
       ++kills;
     } else {
       // It was done before the blow: start again from nothing.
