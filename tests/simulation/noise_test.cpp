@@ -137,7 +137,8 @@ TEST(SegmentationNoiseTest, EdgesWaverByAboutTheConfiguredAngle) {
 
 TEST(SegmentationNoiseTest, OnlyKnownIdsAndUnknownAppear) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    for (const ClassId label : noisy(picture(), 3.0, seed).pixels()) {
+    const LabelImage labels = noisy(picture(), 3.0, seed);
+    for (const ClassId label : labels.pixels()) {
       ASSERT_TRUE((label >= 1 && label <= 6) || label == kUnknown) << int{label};
     }
   }
