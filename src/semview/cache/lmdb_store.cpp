@@ -176,10 +176,12 @@ Status LmdbStore::put_encoded(const Keyspace& keyspace, std::span<const EncodedV
   Status stored = state_->storing ? write(keyspace, views) : Status();
   if (!state_->storing) {
     const std::lock_guard lock(state_->reason_mutex);
-    stored = fail(ErrorCode::kResourceExhausted,
-                  fmt::format("cache {}: storing has stopped: {}",
-                              state_->config.directory.string(),
-                              state_->reason));
+    stored = fail(Error{
+        ErrorCode::kResourceExhausted,
+        fmt::format(
+            "cache {}: storing has stopped: {}", state_->config.directory.string(), state_->reason),
+        {},
+        "make or allow more room (--cache-limit) and run the same command again"});
   }
   if (!stored) {
     state_->refused += views.size();
