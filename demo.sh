@@ -68,7 +68,7 @@ echo "semview-server (process $server_pid) serves both levels at $endpoint"
 say "Simulating ${#robots[@]} robots whose world differs from the plan"
 for robot in "${robots[@]}"; do
   log=$out/robot$robot
-  if [[ -s "$log.json" ]]; then
+  if [[ "$log.json" -nt "$semview" ]]; then
     echo "$log: there already"
     continue
   fi

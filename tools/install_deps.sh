@@ -72,10 +72,10 @@ apt() {
 }
 apt update >/dev/null ||
   die "apt-get update failed: is there a network, and are the sources in /etc/apt right?"
-apt install --no-install-recommends "${missing[@]}" >/tmp/semview_apt.$$ 2>&1 || {
-  tail -n 20 "/tmp/semview_apt.$$" >&2
-  rm -f "/tmp/semview_apt.$$"
+output=$(mktemp)
+trap 'rm -f "$output"' EXIT
+apt install --no-install-recommends "${missing[@]}" >"$output" 2>&1 || {
+  tail -n 20 "$output" >&2
   die "apt-get install failed, for the reason above; mend it and run this again"
 }
-rm -f "/tmp/semview_apt.$$"
 say "done"

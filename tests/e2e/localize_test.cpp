@@ -148,11 +148,11 @@ TEST_F(LocalizeTest, ARobotGoesOnByOdometryWhileTheServerIsGoneAndRecovers) {
   const auto robot =
       localize("robot",
                "est",
-               {"--server", endpoint, "--map", "duplex_level1", "--rate", "4", "--timeout", "0.3"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+               {"--server", endpoint, "--map", "duplex_level1", "--rate", "2", "--timeout", "2"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(4000));
   server->signal(SIGKILL);
   server->wait();
-  std::this_thread::sleep_for(std::chrono::milliseconds(2000));
+  std::this_thread::sleep_for(std::chrono::milliseconds(3000));
   server = serve(endpoint);
   ASSERT_EQ(endpoint_of(*server), endpoint) << server->err();
   ASSERT_EQ(robot->wait(), 0) << robot->err();
