@@ -10,7 +10,7 @@ target_include_directories(semview_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 # semview_module(<name> SOURCES … HEADERS … [USES <modules>] [PUBLIC_LINKS …] [PRIVATE_LINKS …])
 #
 # One folder = one module = one static library `semview_<name>`, alias `semview::<name>`.
-# USES names the modules whose headers this one includes; tools/check_layers.py checks the same.
+# USES names the modules whose headers this one includes, which tools/check_layers.py checks.
 function(semview_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;USES;PUBLIC_LINKS;PRIVATE_LINKS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
