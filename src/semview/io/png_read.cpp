@@ -1,38 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "semview/io/png.hpp"
-
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
 #include <csetjmp>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <png.h>
+
+#include "semview/io/png.hpp"
+#include "semview/io/png_library.hpp"
 
 namespace semview::io {
 namespace {
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-using Message = std::array<char, 160>;
-
-// libpng leaves by longjmp, which must not skip a destructor: every call that may fail sits alone
-// in a member function that holds nothing but plain values.
-void on_error(png_structp png, png_const_charp text) {
-  auto* message = static_cast<Message*>(png_get_error_ptr(png));
-  std::strncpy(message->data(), text, message->size() - 1);
-  png_longjmp(png, 1);
-}
-void on_warning(png_structp, png_const_charp) {}
 
 std::string_view kind_name(int colour_type) {
   switch (colour_type) {
@@ -95,8 +76,8 @@ class Reader {
   }
 
   std::filesystem::path path_;
-  File file_;
-  Message message_{};
+  detail::File file_;
+  detail::PngMessage message_{};
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   png_uint_32 width_ = 0;
@@ -150,7 +131,8 @@ Status Reader::read_header() {
       png_sig_cmp(signature.data(), 0, signature.size()) != 0) {
     return fail(ErrorCode::kDataLoss, fmt::format("{}: is not a PNG file", path_.string()));
   }
-  png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message_, on_error, on_warning);
+  png_ = png_create_read_struct(
+      PNG_LIBPNG_VER_STRING, &message_, detail::on_png_error, detail::on_png_warning);
   info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
   if (info_ == nullptr) return fail(ErrorCode::kInternal, "libpng cannot be started");
   // Above our own limit, so that a large image is called large and not damaged.
@@ -195,93 +177,6 @@ Result<Image<T>> read_samples(Reader& reader) {
     return true;
   }));
   return image;
-}
-
-class Writer {
- public:
-  explicit Writer(const std::filesystem::path& path)
-      : path_(path), file_(std::fopen(path.c_str(), "wb")) {}
-  ~Writer() { png_destroy_write_struct(&png_, &info_); }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-
-  template <typename T>
-  Status write(const Image<T>& image, int bit_depth, int colour_type);
-
- private:
-  bool step_header(png_uint_32 rows, png_uint_32 columns, int bit_depth, int colour_type);
-  bool step_row(png_const_bytep samples);
-  bool step_end();
-  tl::unexpected<Error> cannot_write(const char* why) const {
-    return fail(ErrorCode::kUnavailable,
-                fmt::format("{}: cannot be written: {}", path_.string(), why));
-  }
-
-  std::filesystem::path path_;
-  File file_;
-  Message message_{};
-  png_structp png_ = nullptr;
-  png_infop info_ = nullptr;
-};
-
-bool Writer::step_header(png_uint_32 rows, png_uint_32 columns, int bit_depth, int colour_type) {
-  if (setjmp(png_jmpbuf(png_)) != 0) return false;
-  png_init_io(png_, file_.get());
-  png_set_IHDR(png_,
-               info_,
-               columns,
-               rows,
-               bit_depth,
-               colour_type,
-               PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT,
-               PNG_FILTER_TYPE_DEFAULT);
-  png_write_info(png_, info_);
-  if constexpr (std::endian::native == std::endian::little) {
-    if (bit_depth == 16) png_set_swap(png_);
-  }
-  return true;
-}
-
-bool Writer::step_row(png_const_bytep samples) {
-  if (setjmp(png_jmpbuf(png_)) != 0) return false;
-  png_write_row(png_, samples);
-  return true;
-}
-
-bool Writer::step_end() {
-  if (setjmp(png_jmpbuf(png_)) != 0) return false;
-  png_write_end(png_, info_);
-  return true;
-}
-
-template <typename T>
-Status Writer::write(const Image<T>& image, int bit_depth, int colour_type) {
-  if (image.empty() || image.rows() > kMaxPngSide_px || image.columns() > kMaxPngSide_px) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{}: an image of {} x {} pixels cannot be written",
-                            path_.string(),
-                            image.columns(),
-                            image.rows()));
-  }
-  if (!file_) return cannot_write(std::strerror(errno));
-  png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message_, on_error, on_warning);
-  info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
-  if (info_ == nullptr) return fail(ErrorCode::kInternal, "libpng cannot be started");
-  if (!step_header(static_cast<png_uint_32>(image.rows()),
-                   static_cast<png_uint_32>(image.columns()),
-                   bit_depth,
-                   colour_type)) {
-    return cannot_write(message_.data());
-  }
-  for (int row = 0; row < image.rows(); ++row) {
-    if (!step_row(reinterpret_cast<png_const_bytep>(image.row(row).data()))) {
-      return cannot_write(message_.data());
-    }
-  }
-  if (!step_end()) return cannot_write(message_.data());
-  if (std::fclose(file_.release()) != 0) return cannot_write(std::strerror(errno));
-  return {};
 }
 
 }  // namespace
@@ -337,19 +232,6 @@ Result<Image<std::uint16_t>> read_png_grey16(const std::filesystem::path& path) 
   }
   reader.native_16_bits();
   return read_samples<std::uint16_t>(reader);
-}
-
-Status write_png(const std::filesystem::path& path, const Image<std::uint8_t>& image) {
-  return Writer(path).write(image, 8, PNG_COLOR_TYPE_GRAY);
-}
-
-Status write_png(const std::filesystem::path& path, const RgbImage& image) {
-  static_assert(sizeof(Rgb) == 3);
-  return Writer(path).write(image, 8, PNG_COLOR_TYPE_RGB);
-}
-
-Status write_png(const std::filesystem::path& path, const Image<std::uint16_t>& image) {
-  return Writer(path).write(image, 16, PNG_COLOR_TYPE_GRAY);
 }
 
 }  // namespace semview::io
