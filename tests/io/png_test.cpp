@@ -182,6 +182,27 @@ TEST(PngTest, EveryTruncationIsAnError) {
   }
 }
 
+TEST(PngTest, AFileCutShortSaysSoAndWhatToDo) {
+  const TemporaryFolder folder;
+  const std::string rows(std::size_t{8} * 5, '\0');
+  const std::string bytes = png_file(4, 8, 8, 0, rows);
+  const auto path = folder.write("cut.png", bytes.substr(0, bytes.size() - 30));
+  const auto image = read_png_grey(path);
+  ASSERT_FALSE(image);
+  EXPECT_THAT(image.error().message,
+              HasSubstr("cut.png: is cut short: the file ends in its pixels"));
+  EXPECT_THAT(image.error().hint, HasSubstr("again"));
+}
+
+TEST(PngTest, AFileThatIsNoPngSaysWhatWouldBeRight) {
+  const TemporaryFolder folder;
+  const auto image = read_png_rgb(folder.write("photo.png", "GIF89a and what follows"));
+  ASSERT_FALSE(image);
+  EXPECT_THAT(image.error().message, HasSubstr("photo.png: is not a PNG file"));
+  EXPECT_THAT(image.error().hint, HasSubstr("save the picture as a PNG"));
+  EXPECT_THAT(read_png_rgb(folder.path()).error().message, HasSubstr("is a folder"));
+}
+
 TEST(PngTest, DamageIsAnErrorOrAnImageOfTheSameSizeButNeverACrash) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "a.png", random_image<std::uint8_t>(16, 16)));

@@ -77,7 +77,8 @@ Result<Image<std::uint8_t>> read_pgm(const std::filesystem::path& path) {
   const std::string file = path.string();
   const bool binary = text.starts_with("P5");
   if (!binary && !text.starts_with("P2")) {
-    return fail(ErrorCode::kInvalidArgument, fmt::format("{}: is not a PGM (P5 or P2)", file));
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: is not a PGM (P5 or P2); convert it to PGM or PNG", file));
   }
   Numbers numbers(std::string_view(text).substr(2));
   const std::optional<Header> header = read_header(numbers);

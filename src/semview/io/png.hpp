@@ -33,6 +33,24 @@ Result<Image<std::uint8_t>> read_png_grey(const std::filesystem::path& path);
 /// @errors kInvalidArgument: a pixel is transparent; the message names the first one.
 Result<RgbImage> read_png_rgb(const std::filesystem::path& path);
 
+/// An sRGB colour with its opacity, 255 for an opaque one.
+struct Rgba {
+  unsigned char r = 0;
+  unsigned char g = 0;
+  unsigned char b = 0;
+  unsigned char a = 255;
+
+  bool operator==(const Rgba&) const = default;
+};
+
+struct RgbaPicture {
+  Image<Rgba> pixels;
+  bool has_alpha = false;  ///< the file has an alpha channel or a transparent colour
+};
+
+/// The colours of any PNG, 16 bits rounded to 8, and how opaque they are.
+Result<RgbaPicture> read_png_rgba(const std::filesystem::path& path);
+
 /// The samples of a 16-bit grey PNG.
 Result<Image<std::uint16_t>> read_png_grey16(const std::filesystem::path& path);
 

@@ -65,14 +65,25 @@ class Reader {
     if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
   }
   void to_rgba();
+  bool has_alpha() const {
+    return (colour_type_ & PNG_COLOR_MASK_ALPHA) != 0 ||
+           png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
+  }
 
  private:
   bool step_header();
   bool step_begin_rows();
   bool step_row(png_bytep samples);
-  tl::unexpected<Error> damaged() const {
-    return fail(ErrorCode::kDataLoss,
-                fmt::format("{}: damaged PNG: {}", path_.string(), message_.data()));
+  /// `where`: what was being read.
+  tl::unexpected<Error> damaged(std::string_view where) const {
+    const bool cut_short = std::feof(file_.get()) != 0;
+    return fail(Error{
+        ErrorCode::kDataLoss,
+        cut_short
+            ? fmt::format("{}: is cut short: the file ends in {}", path_.string(), where)
+            : fmt::format("{}: is damaged in {} ({})", path_.string(), where, message_.data()),
+        {},
+        "save or copy the picture again, as a PNG"});
   }
 
   std::filesystem::path path_;
@@ -126,10 +137,18 @@ Status Reader::read_header() {
     return fail(ErrorCode::kNotFound,
                 fmt::format("{}: cannot be opened: {}", path_.string(), std::strerror(errno)));
   }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path_, ignored)) {
+    return fail(ErrorCode::kNotFound,
+                fmt::format("{}: is a folder, expected a PNG file", path_.string()));
+  }
   std::array<png_byte, 8> signature{};
   if (std::fread(signature.data(), 1, signature.size(), file_.get()) != signature.size() ||
       png_sig_cmp(signature.data(), 0, signature.size()) != 0) {
-    return fail(ErrorCode::kDataLoss, fmt::format("{}: is not a PNG file", path_.string()));
+    return fail(Error{ErrorCode::kDataLoss,
+                      fmt::format("{}: is not a PNG file", path_.string()),
+                      {},
+                      "save the picture as a PNG; another ending of the name is not enough"});
   }
   png_ = png_create_read_struct(
       PNG_LIBPNG_VER_STRING, &message_, detail::on_png_error, detail::on_png_warning);
@@ -137,7 +156,7 @@ Status Reader::read_header() {
   if (info_ == nullptr) return fail(ErrorCode::kInternal, "libpng cannot be started");
   // Above our own limit, so that a large image is called large and not damaged.
   png_set_user_limits(png_, 1'000'000, 1'000'000);
-  if (!step_header()) return damaged();
+  if (!step_header()) return damaged("its header");
   if (width_ > kMaxPngSide_px || height_ > kMaxPngSide_px ||
       std::int64_t{width_} * std::int64_t{height_} > kMaxPngPixels) {
     return fail(ErrorCode::kOutOfRange,
@@ -153,7 +172,7 @@ Status Reader::read_header() {
 
 template <typename Use>
 Status Reader::read_rows(const Use& use) {
-  if (!step_begin_rows()) return damaged();
+  if (!step_begin_rows()) return damaged("its header");
   const std::size_t row_bytes = png_get_rowbytes(png_, info_);
   // An interlaced file completes its rows only in the last pass: keep all of them.
   const std::size_t kept_rows = passes_ == 1 ? 1 : height_;
@@ -161,7 +180,7 @@ Status Reader::read_rows(const Use& use) {
   for (int pass = 0; pass < passes_; ++pass) {
     for (std::size_t row = 0; row < height_; ++row) {
       png_byte* const target = samples.data() + row_bytes * (row % kept_rows);
-      if (!step_row(target)) return damaged();
+      if (!step_row(target)) return damaged("its pixels");
       if (pass + 1 == passes_ && !use(static_cast<int>(row), target)) return {};
     }
   }
@@ -222,6 +241,17 @@ Result<RgbImage> read_png_rgb(const std::filesystem::path& path) {
   }));
   if (!transparent.empty()) return fail(ErrorCode::kInvalidArgument, std::move(transparent));
   return image;
+}
+
+Result<RgbaPicture> read_png_rgba(const std::filesystem::path& path) {
+  static_assert(sizeof(Rgba) == 4);
+  Reader reader(path);
+  SEMVIEW_TRY_STATUS(reader.read_header());
+  RgbaPicture picture;
+  picture.has_alpha = reader.has_alpha();
+  reader.to_rgba();
+  SEMVIEW_TRY(picture.pixels, read_samples<Rgba>(reader));
+  return picture;
 }
 
 Result<Image<std::uint16_t>> read_png_grey16(const std::filesystem::path& path) {
