@@ -33,8 +33,8 @@ void add_map_import(CLI::App& map, int& exit_code) {
 
   CLI::App* ros = import_verb->add_subcommand(
       "ros",
-      "Make a map of walls and floor from a ROS map_server map: occupied cells become wall, free "
-      "ones floor, unknown ones outside.");
+      "Make a map of walls and floor from a ROS map_server map (modes trinary, scale and raw; PGM "
+      "or PNG): occupied cells become wall, free ones floor, unknown ones outside.");
   const auto ros_options = std::make_shared<Options>();
   ros->add_option("MAP.yaml", ros_options->input, "The map_server file")->required();
   ros->add_option("-o,--output", ros_options->output, "Folder to make")->required();

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include "map/bundle.hpp"
 #include "semview/io/png.hpp"
@@ -139,13 +144,99 @@ TEST_F(RosImportTest, NegateSwapsBlackAndWhite) {
   EXPECT_EQ(map->columns()->profile(3, 3).slabs.size(), 1U);
 }
 
-TEST_F(RosImportTest, RefusesOtherModesAndThresholds) {
-  write_text(folder_ / "ros.yaml",
-             "image: ros.pgm\nmode: raw\nresolution: 0.05\norigin: [-1, -2, 0]\n");
-  EXPECT_FALSE(import_ros_map(folder_ / "ros.yaml", folder_ / "a"));
-  write_text(folder_ / "ros.yaml",
-             "image: ros.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\nfree_thresh: 0.9\n");
-  EXPECT_FALSE(import_ros_map(folder_ / "ros.yaml", folder_ / "b"));
+/// The classes that a row of pixels gets: `#` wall, `.` floor, ` ` outside.
+std::string imported_row(const std::filesystem::path& yaml, const std::filesystem::path& folder) {
+  const Status imported = import_ros_map(yaml, folder);
+  EXPECT_TRUE(imported) << imported.error().message;
+  const Result<RgbImage> labels = io::read_png_rgb(folder / "labels.png");
+  std::string row;
+  if (!labels) return row;
+  for (const Rgb pixel : labels->row(0)) {
+    row += pixel == testing::color_of('#') ? '#' : pixel == testing::color_of('.') ? '.' : ' ';
+  }
+  return row;
+}
+
+std::string ros_yaml(const std::string& image, const std::string& more) {
+  return "image: " + image + "\nresolution: 0.5\norigin: [0, 0, 0]\n" + more;
+}
+
+std::string pgm_row(const std::vector<int>& greys) {
+  std::string text = fmt::format("P2\n{} 1\n255\n", greys.size());
+  for (const int grey : greys) text += fmt::format("{} ", grey);
+  return text;
+}
+
+// The expected rows below were worked out by hand from loadMapFromFile of nav2_map_server.
+
+TEST_F(RosImportTest, TrinaryDecidesByTheThresholdsAndKeeps205Unknown) {
+  write_text(folder_ / "m.pgm", pgm_row({0, 89, 90, 191, 192, 205, 206, 254}));
+  write_text(folder_ / "m.yaml",
+             ros_yaml("m.pgm", "mode: trinary\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"));
+  EXPECT_EQ(imported_row(folder_ / "m.yaml", folder_ / "site"), "##  . ..");
+}
+
+TEST_F(RosImportTest, ScaleLeavesWhatIsBetweenTheThresholdsOutside) {
+  write_text(folder_ / "m.pgm", pgm_row({0, 89, 90, 150, 191, 192, 205, 255}));
+  write_text(folder_ / "m.yaml",
+             ros_yaml("m.pgm", "mode: scale\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"));
+  EXPECT_EQ(imported_row(folder_ / "m.yaml", folder_ / "site"), "##   ...")
+      << "205 is a value like any other in this mode";
+}
+
+TEST_F(RosImportTest, RawTakesGreysAsPercentAndMoreThan100AsUnknown) {
+  write_text(folder_ / "m.pgm", pgm_row({0, 24, 25, 65, 66, 100, 101, 255}));
+  const std::string keys = "mode: raw\noccupied_thresh: 0.65\nfree_thresh: 0.25\n";
+  write_text(folder_ / "m.yaml", ros_yaml("m.pgm", keys));
+  EXPECT_EQ(imported_row(folder_ / "m.yaml", folder_ / "a"), "..  ##  ");
+  write_text(folder_ / "m.yaml", ros_yaml("m.pgm", keys + "negate: 1\n"));
+  EXPECT_EQ(imported_row(folder_ / "m.yaml", folder_ / "b"), "..  ##  ") << "Nav2 does not negate";
+}
+
+/// A row of grey and alpha; libpng, since semview writes no alpha.
+void write_grey_alpha(const std::filesystem::path& path, const std::vector<png_byte>& samples) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(samples.size() / 2);
+  image.height = 1;
+  image.format = PNG_FORMAT_GA;
+  ASSERT_NE(png_image_write_to_file(&image, path.c_str(), 0, samples.data(), 0, nullptr), 0);
+}
+
+TEST_F(RosImportTest, ATransparentPixelIsUnknownInModeScale) {
+  write_grey_alpha(folder_ / "m.png", {0, 255, 255, 255, 0, 0, 255, 254, 0, 255});
+  write_text(folder_ / "m.yaml", ros_yaml("m.png", "mode: scale\n"));
+  EXPECT_EQ(imported_row(folder_ / "m.yaml", folder_ / "site"), "#.  #");
+}
+
+TEST_F(RosImportTest, AlphaTakesPartInTheMeanInModeTrinary) {
+  // Means of three greys and alpha: 63.75 (occupancy 0.75), 0 (1), 255 (0), 191.25 (0.25).
+  write_grey_alpha(folder_ / "m.png", {0, 255, 0, 0, 255, 255, 255, 0});
+  write_text(folder_ / "m.yaml", ros_yaml("m.png", "occupied_thresh: 0.8\nfree_thresh: 0.2\n"));
+  EXPECT_EQ(imported_row(folder_ / "m.yaml", folder_ / "site"), " #. ");
+}
+
+TEST_F(RosImportTest, AnErrorNamesTheLineOfTheValue) {
+  const auto error_of = [&](const std::string& more) {
+    write_text(folder_ / "m.yaml", ros_yaml("ros.pgm", more));
+    const Status imported = import_ros_map(folder_ / "m.yaml", folder_ / "site");
+    EXPECT_FALSE(imported) << more;
+    return imported ? std::string() : imported.error().message;
+  };
+  EXPECT_THAT(error_of("mode: colour\n"),
+              HasSubstr("m.yaml:4: mode 'colour' is not trinary, scale or raw"));
+  EXPECT_THAT(error_of("negate: maybe\n"), HasSubstr("m.yaml:4: negate"));
+  EXPECT_THAT(error_of("occupied_thresh: 0.2\nfree_thresh: 0.9\n"),
+              HasSubstr("m.yaml:5: free_thresh 0.9 is not below occupied_thresh 0.2"));
+  EXPECT_THAT(error_of("free_thresh: 0.1\noccupied_thresh: 65\n"),
+              HasSubstr("m.yaml:5: occupied_thresh 65 is not in 0..1"));
+  write_text(folder_ / "m.yaml", "image: no.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+  const Status missing = import_ros_map(folder_ / "m.yaml", folder_ / "site");
+  EXPECT_THAT(missing.error().message, HasSubstr("m.yaml:1: image "));
+  write_text(folder_ / "m.yaml", "image: ros.pgm\norigin: [0, 0, 0]\nresolution: 50\n");
+  const Status coarse = import_ros_map(folder_ / "m.yaml", folder_ / "site");
+  EXPECT_THAT(coarse.error().message, HasSubstr("m.yaml:3: resolution 50 m per pixel"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "site")) << "nothing was begun";
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ struct RosImportConfig {
   double wall_height_m = 2.6;
 };
 
-/// Reads a map_server YAML with its PGM or PNG and writes a bundle into `directory`: occupied cells
-/// become wall, free ones floor, unknown ones outside; the grey 205 that map_saver writes for
-/// unknown is unknown whatever the thresholds.
-/// @errors kNotFound, kInvalidArgument: the map; kAlreadyExists: `directory` holds a map already.
+/// Reads a map_server YAML (modes trinary, scale and raw) with its PGM or PNG and writes a bundle
+/// into `directory`: occupied cells become wall, free ones floor, unknown ones outside.
+/// docs/formats/map_bundle.md#importing-ros-maps says which is which.
+/// @errors kNotFound, kInvalidArgument, kOutOfRange, kDataLoss: the map; kAlreadyExists: `directory` holds a map already.
 Status import_ros_map(const std::filesystem::path& map_yaml,
                       const std::filesystem::path& directory,
                       const RosImportConfig& config = {});
