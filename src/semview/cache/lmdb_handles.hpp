@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -87,27 +88,54 @@ class Environment {
   };
   Environment() = default;
   Status open_databases();
-  Status repair_length(const std::filesystem::path& file) const;
 
   std::unique_ptr<MDB_env, Close> handle_;
   MDB_dbi records_ = 0;
   MDB_dbi keyspaces_ = 0;
 };
 
-/// A shared (`kUse`) or exclusive (`kRewrite`) claim on a directory, held by the open file and so
-/// released even by a kill -9.
+/// Fills a new environment, many entries a transaction. After an error nothing more is to be added.
+class BatchWriter {
+ public:
+  /// `put_flags`: MDB_APPEND if keys come in order, so that pages are full, or 0.
+  BatchWriter(const Environment& target, unsigned put_flags)
+      : target_(target), put_flags_(put_flags) {}
+  Status add(MDB_dbi table, std::span<const std::byte> key, std::span<const std::byte> value);
+  /// Ends a table, so that `add` may go on with the next.
+  Status commit();
+  /// Commits, and returns when all is on the disk.
+  Status sync();
+
+ private:
+  const Environment& target_;
+  unsigned put_flags_;
+  std::optional<Transaction> transaction_;
+  std::size_t pending_ = 0;
+};
+
+/// In a cache directory while `LmdbStore::compact` has it; a kill may leave it behind.
+inline constexpr const char* kRewritingFolder = "compacting";
+
+/// A claim on a directory, held by the open file and so released even by a kill -9.
 class DirectoryLock {
  public:
-  enum class Kind { kUse, kRewrite };
-  /// @errors kFailedPrecondition: held by another process in a way that excludes this one.
-  static Result<DirectoryLock> take(const std::filesystem::path& directory, Kind kind);
-  DirectoryLock(DirectoryLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  /// Exclusive if no other process has the directory, else shared.
+  /// @errors kFailedPrecondition: another process compacts it; kPermissionDenied, kUnavailable.
+  static Result<DirectoryLock> take(const std::filesystem::path& directory);
+  DirectoryLock(DirectoryLock&& other) noexcept
+      : file_(std::exchange(other.file_, -1)), alone_(other.alone_) {}
   DirectoryLock& operator=(DirectoryLock&&) = delete;
   ~DirectoryLock();
+
+  /// Whether the claim is exclusive.
+  bool alone() const { return alone_; }
+  /// Lets other processes in.
+  void share();
 
  private:
   explicit DirectoryLock(int file) : file_(file) {}
   int file_;
+  bool alone_ = false;
 };
 
 }  // namespace semview::cache::detail

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "semview/cache/lmdb_repair.hpp"
 #include "semview/cache/lmdb_state.hpp"
 #include "semview/view/view_codec.hpp"
 
@@ -58,62 +59,22 @@ void count(LmdbStore::VerifyReport& report, RecordState state) {
   }
 }
 
-/// Copies what is sound into an empty environment, in order, so that pages are full.
-class Rewriter {
- public:
-  explicit Rewriter(detail::Environment& target) : target_(target) {}
-
-  Status add(MDB_dbi table, std::span<const std::byte> key, std::span<const std::byte> value) {
-    if (!transaction_) {
-      SEMVIEW_TRY(Transaction begun, Transaction::begin(target_.get(), 0));
-      transaction_.emplace(std::move(begun));
-    }
-    MDB_val key_value = detail::value_of(key);
-    MDB_val value_value = detail::value_of(value);
-    if (const int code = mdb_put(transaction_->get(), table, &key_value, &value_value, MDB_APPEND);
-        code != 0) {
-      return fail(detail::lmdb_error(code, "write the compacted file"));
-    }
-    if (++pending_ < kRecordsACommit) return {};
-    return commit();
-  }
-
-  Status commit() {
-    if (!transaction_) return {};
-    const int code = transaction_->commit();
-    transaction_.reset();
-    pending_ = 0;
-    if (code != 0) return fail(detail::lmdb_error(code, "write the compacted file"));
-    return {};
-  }
-
- private:
-  static constexpr std::size_t kRecordsACommit = 20'000;
-  detail::Environment& target_;
-  std::optional<Transaction> transaction_;
-  std::size_t pending_ = 0;
-};
-
 Status rewrite(const detail::Environment& source,
                detail::Environment& target,
                LmdbStore::VerifyReport& report) {
-  Rewriter rewriter(target);
+  detail::BatchWriter writer(target, MDB_APPEND);
   SEMVIEW_TRY_STATUS(for_each(source, source.records(), [&](auto key, auto value) -> Status {
     const RecordState state = judge(key, value);
     count(report, state);
     if (state != RecordState::kSound) return {};
-    return rewriter.add(target.records(), key, value);
+    return writer.add(target.records(), key, value);
   }));
-  SEMVIEW_TRY_STATUS(rewriter.commit());
+  SEMVIEW_TRY_STATUS(writer.commit());
   SEMVIEW_TRY_STATUS(for_each(source, source.keyspaces(), [&](auto key, auto value) -> Status {
     if (!detail::read_description(value)) return {};
-    return rewriter.add(target.keyspaces(), key, value);
+    return writer.add(target.keyspaces(), key, value);
   }));
-  SEMVIEW_TRY_STATUS(rewriter.commit());
-  if (const int code = mdb_env_sync(target.get(), 1); code != 0) {
-    return fail(detail::lmdb_error(code, "write the compacted file"));
-  }
-  return {};
+  return writer.sync();
 }
 
 }  // namespace
@@ -167,8 +128,15 @@ Result<std::vector<KeyspaceEntry>> LmdbStore::keyspaces() const {
 Result<LmdbStore::CompactReport> LmdbStore::compact(const LmdbConfig& config) {
   const std::filesystem::path& directory = config.directory;
   SEMVIEW_TRY(const detail::DirectoryLock lock,
-              detail::DirectoryLock::take(directory, detail::DirectoryLock::Kind::kRewrite));
-  const std::filesystem::path fresh = directory / "compacting";
+              detail::DirectoryLock::take(directory));
+  if (!lock.alone()) {
+    return fail(Error{ErrorCode::kFailedPrecondition,
+                      fmt::format("cache {}: another process has it open", directory.string()),
+                      {},
+                      "stop that process first"});
+  }
+  SEMVIEW_TRY_STATUS(detail::mend_data_file(directory, config.map_bytes));
+  const std::filesystem::path fresh = directory / detail::kRewritingFolder;
   std::error_code error;
   std::filesystem::remove_all(fresh, error);  // of a compaction that was killed
   CompactReport report;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "semview/cache/lmdb_repair.hpp"
 #include "semview/cache/lmdb_state.hpp"
 #include "semview/core/check.hpp"
 #include "semview/core/log.hpp"
@@ -68,8 +69,12 @@ Result<std::shared_ptr<LmdbStore>> LmdbStore::open(const LmdbConfig& config) {
     }
     stores.closed.wait(lock);
   }
-  SEMVIEW_TRY(detail::DirectoryLock directory_lock,
-              detail::DirectoryLock::take(config.directory, detail::DirectoryLock::Kind::kUse));
+  SEMVIEW_TRY(detail::DirectoryLock directory_lock, detail::DirectoryLock::take(config.directory));
+  if (directory_lock.alone()) {
+    std::filesystem::remove_all(config.directory / detail::kRewritingFolder, error);
+    SEMVIEW_TRY_STATUS(detail::mend_data_file(config.directory, config.map_bytes));
+    directory_lock.share();
+  }
   SEMVIEW_TRY(detail::Environment environment,
               detail::Environment::open(config.directory, config.map_bytes));
   store =

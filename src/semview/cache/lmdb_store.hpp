@@ -56,10 +56,12 @@ struct EncodedView {
 /// `open` gives the one store that it has for a directory.
 class LmdbStore final : public ViewStore {
  public:
-  /// Opens or makes the directory.
+  /// Opens or makes the directory. The first process to do so follows the data file's pages; if
+  /// they are damaged it sets the file aside as `data.mdb.damaged` and goes on with a new one that
+  /// holds every record still sound.
   /// @errors kFailedPrecondition: this process has it open with another limit or map size, or it
   /// holds another program's database; kPermissionDenied, kUnavailable: the system refuses;
-  /// kDataLoss: the data file is shorter than it says.
+  /// kDataLoss: the data file is damaged and there is no room for a new one.
   static Result<std::shared_ptr<LmdbStore>> open(const LmdbConfig& config);
   ~LmdbStore() override;
 

@@ -2,7 +2,6 @@
 #include "semview/cache/record.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -11,7 +10,6 @@
 namespace semview::cache {
 namespace {
 
-constexpr std::array kMagic = {std::byte{'S'}, std::byte{'V'}, std::byte{'W'}, std::byte{'R'}};
 constexpr std::size_t kChecksumBytes = 8;
 
 }  // namespace
@@ -22,7 +20,7 @@ std::vector<std::byte> encode_record(std::span<const std::byte> keyspace_bytes,
                                      std::span<const std::byte> payload) {
   detail::ByteWriter out;
   out.reserve(keyspace_bytes.size() + payload.size() + 29);
-  out.add_bytes(kMagic);
+  out.add_bytes(kRecordMagic);
   out.add(kRecordFormat);
   out.add(static_cast<std::uint16_t>(keyspace_bytes.size()));
   out.add_bytes(keyspace_bytes);
@@ -37,7 +35,7 @@ std::vector<std::byte> encode_record(std::span<const std::byte> keyspace_bytes,
 
 Result<Record> decode_record(std::span<const std::byte> bytes) {
   detail::ByteReader in(bytes);
-  if (!std::ranges::equal(in.take_bytes(kMagic.size()), kMagic)) {
+  if (!std::ranges::equal(in.take_bytes(kRecordMagic.size()), kRecordMagic)) {
     return fail(ErrorCode::kDataLoss, "record: wrong magic");
   }
   const auto format = in.take<std::uint16_t>();
@@ -63,6 +61,15 @@ Result<Record> decode_record(std::span<const std::byte> bytes) {
   }
   record.payload = in.take_bytes(payload_length);
   return record;
+}
+
+std::size_t record_length(std::span<const std::byte> bytes) {
+  detail::ByteReader in(bytes);
+  in.take_bytes(kRecordMagic.size() + sizeof(kRecordFormat));
+  in.take_bytes(in.take<std::uint16_t>());
+  in.take_bytes(2 * sizeof(std::int32_t) + sizeof(std::uint8_t));
+  const auto payload_length = in.take<std::uint32_t>();
+  return in.failed() ? 0 : bytes.size() - in.left() + payload_length + kChecksumBytes;
 }
 
 }  // namespace semview::cache
