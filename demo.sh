@@ -14,6 +14,7 @@ cd "$(dirname "$0")" || exit 1
 out=demo_out
 map=maps/duplex_level1
 robots=(1 2)  # also the seeds of their worlds, drives and filters
+drive_frames=60   # half a metre apart
 
 say() { printf '\n== %s\n' "$*"; }
 die() { printf 'demo.sh: %s\n' "$*" >&2; exit 1; }
@@ -47,10 +48,6 @@ server=build/release/bin/semview-server
 say "The plan: checking it"
 "$semview" map check "$map" || die "$map has the problems listed above"
 
-say "Precomputing every view of $map"
-"$semview" precompute "$map" --cache "$out/cache" ||
-  die "precompute failed; to begin anew: rm -r $out/cache"
-
 say "Starting the server"
 "$server" --map maps/duplex_level1 --map maps/duplex_level2 --cache "$out/cache" \
   --bind 'tcp://127.0.0.1:*' >"$out/server.out" 2>"$out/server.log" &
@@ -65,6 +62,10 @@ done
 [[ -n "$endpoint" ]] || { cat "$out/server.log"; die "the server is not listening after 10 s"; }
 echo "semview-server (process $server_pid) serves both levels at $endpoint"
 
+say "Precomputing every view of $map"
+"$semview" precompute "$map" --cache "$out/cache" ||
+  die "precompute failed; to begin anew: rm -r $out/cache"
+
 say "Simulating ${#robots[@]} robots whose world differs from the plan"
 for robot in "${robots[@]}"; do
   log=$out/robot$robot
@@ -73,7 +74,7 @@ for robot in "${robots[@]}"; do
     continue
   fi
   rm -rf "$log"
-  "$semview" simulate "$map" --out "$log" --seed "$robot" --json >"$log.json.part" ||
+  "$semview" simulate "$map" --out "$log" --seed "$robot" --steps "$drive_frames" --json >"$log.json.part" ||
     die "simulating robot $robot failed, see above"
   mv "$log.json.part" "$log.json"
 done
