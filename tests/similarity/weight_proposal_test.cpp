@@ -96,6 +96,15 @@ TEST(VocabularyTest, ReadsNamesWithAliasesAndNamesTheLineOfAnError) {
   EXPECT_EQ(load_vocabulary("nothing of that name").error().code, ErrorCode::kNotFound);
 }
 
+TEST(VocabularyTest, ATableOfAnotherKindOrABinaryFileIsNoVocabulary) {
+  const auto message = [](std::string_view text) {
+    return parse_vocabulary(text, "v").error().message;
+  };
+  EXPECT_THAT(message("wall\n1,0.1576,wall\n"), HasSubstr("v:2: ',' or ';' in a class name"));
+  EXPECT_THAT(message(std::string_view("wall\0x\n", 7)), HasSubstr("expected a text file"));
+  EXPECT_THAT(message(std::string(65, 'w')), HasSubstr("65 bytes, expected at most 64"));
+}
+
 TEST(WeightProposalTest, FollowsTheThreeConceptsOfThePaper) {
   const Vocabulary ade = shipped_vocabulary("ade20k150").value();
   const Vocabulary map{{"wall"}, {"floor"}, {"table"}, {"chair"}, {"window"}};

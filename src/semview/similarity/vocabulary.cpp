@@ -15,6 +15,23 @@ namespace semview::similarity {
 namespace {
 
 constexpr std::uintmax_t kMaxVocabularyBytes = 1U << 20U;
+constexpr std::size_t kMaxNameBytes = 64;
+
+/// What keeps `name` from being a class's name, for example because the file is a table of another
+/// kind or no text; empty: nothing.
+std::string objection(const std::string& name) {
+  if (name.empty()) return "empty class name";
+  if (std::ranges::any_of(name, [](unsigned char byte) { return byte < 0x20 || byte == 0x7f; })) {
+    return "control characters in a class name, expected a text file";
+  }
+  if (name.size() > kMaxNameBytes) {
+    return fmt::format("class name of {} bytes, expected at most {}", name.size(), kMaxNameBytes);
+  }
+  if (name.find_first_of(",;") != std::string::npos) {
+    return "',' or ';' in a class name, expected a name, a tab, other names with ';' between them";
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -32,7 +49,7 @@ Result<Vocabulary> parse_vocabulary(std::string_view text, std::string_view name
     };
     const std::vector<std::string> cells = split_trimmed(line.text, '\t');
     if (cells.size() > 2) return wrong("expected a name, a tab, other names with ';' between them");
-    if (cells[0].empty()) return wrong("empty class name");
+    if (const std::string what = objection(cells[0]); !what.empty()) return wrong(what);
     if (std::ranges::find(vocabulary, cells[0], &NamedClass::name) != vocabulary.end()) {
       return wrong(fmt::format("class {} named twice", cells[0]));
     }

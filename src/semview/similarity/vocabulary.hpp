@@ -27,7 +27,8 @@ ClassTable class_table(const Vocabulary& vocabulary);
 
 /// Text of one class a line, in id order: its name, then, after a tab, other names with `;` between
 /// them. Lines that start with # and empty ones are skipped. `name` stands in messages.
-/// @errors kInvalidArgument: an empty or repeated name, no class, or more than 254.
+/// @errors kInvalidArgument: a name that is empty, repeated, longer than 64 bytes or holds control
+/// characters, ',' or ';'; no class, or more than 254.
 Result<Vocabulary> parse_vocabulary(std::string_view text, std::string_view name);
 
 /// A vocabulary built into the program: `ade20k150`.
