@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,11 +24,12 @@ class DispatcherTest : public testing::Test {
 
   /// Submits and waits.
   static Result<std::string> ask(Dispatcher& dispatcher, Request request) {
-    std::promise<Result<std::string>> answered;
-    dispatcher.submit(std::move(request), 1, [&answered](Result<std::string> result) {
-      answered.set_value(std::move(result));
+    // Shared: the worker may still be in `set_value` when the answer is here already.
+    const auto answered = std::make_shared<std::promise<Result<std::string>>>();
+    dispatcher.submit(std::move(request), 1, [answered](Result<std::string> result) {
+      answered->set_value(std::move(result));
     });
-    return answered.get_future().get();
+    return answered->get_future().get();
   }
 
   ManualClock clock_;

@@ -64,6 +64,7 @@ class ServerFixture : public testing::Test {
 
   TemporaryFolder folder_;
   std::shared_ptr<service::Site> site_;
+  ManualClock clock_;  ///< for servers whose time a test makes; outlives them
   std::unique_ptr<server::Server> server_;
 };
 

@@ -75,15 +75,33 @@ TEST_F(JobsTest, RefusesMoreThanItsLimitAndWhatCannotSucceed) {
   limits.max_running_jobs = 1;
   Jobs jobs(limits);
   const auto site = open();
-  ASSERT_TRUE(jobs.start_precompute(site, {}).has_value());
+  const auto first = jobs.start_precompute(site, {});
+  ASSERT_TRUE(first.has_value());
   const Error refused = jobs.start_precompute(site, {}).error();
   EXPECT_EQ(refused.code, ErrorCode::kResourceExhausted);
   EXPECT_GT(refused.retry_after_ms, 0U);
-  jobs.cancel_all();
+  ASSERT_TRUE(jobs.cancel(*first).has_value());
   EXPECT_TRUE(jobs.start_precompute(site, {}).has_value());
-  jobs.cancel_all();
+}
+
+TEST_F(JobsTest, WithoutACacheDirectoryTheErrorSaysHowToHaveOne) {
   config_.cache_directory.reset();
-  EXPECT_EQ(jobs.start_precompute(open(), {}).error().code, ErrorCode::kFailedPrecondition);
+  Jobs jobs(Limits{});
+  const Error refused = jobs.start_precompute(open(), {}).error();
+  EXPECT_EQ(refused.code, ErrorCode::kFailedPrecondition);
+  EXPECT_NE(refused.message.find("--cache"), std::string::npos) << refused.message;
+  EXPECT_NE(refused.hint.find("--cache"), std::string::npos) << refused.hint;
+}
+
+TEST_F(JobsTest, ClosingCancelsWhatWaitsAndRefusesTheRest) {
+  Jobs jobs(Limits{});
+  const auto site = open();
+  const auto waiting = jobs.start_precompute(site, {});
+  ASSERT_TRUE(waiting.has_value());
+  jobs.close();
+  EXPECT_EQ(jobs.status(*waiting)->state, JobState::kCancelled);
+  EXPECT_EQ(jobs.start_precompute(site, {}).error().code, ErrorCode::kUnavailable);
+  EXPECT_FALSE(jobs.run_next());
 }
 
 TEST_F(JobsTest, AFullCacheFailsTheJobWithItsReason) {

@@ -43,9 +43,10 @@ Result<std::uint64_t> Jobs::start_precompute(std::shared_ptr<Site> site,
                                              const PrecomputeRegion& region) {
   if (site->tiers().store == nullptr) {
     return fail(Error{ErrorCode::kFailedPrecondition,
-                      "precomputed views need a cache directory",
+                      "the server was started without --cache: it has no place to keep views",
                       {},
-                      "start the server with --cache DIR"});
+                      "start it again with a cache directory, for example semview-server --map DIR "
+                      "--cache /var/cache/semview"});
   }
   const auto job = std::make_shared<Job>();
   SEMVIEW_TRY(job->plan, plan_precompute(*site, region));
@@ -55,6 +56,7 @@ Result<std::uint64_t> Jobs::start_precompute(std::shared_ptr<Site> site,
   JobStatus announced;  // the job may be running before it is announced
   {
     const std::lock_guard lock(mutex_);
+    if (closed_) return fail(ErrorCode::kUnavailable, "the server is shutting down");
     if (counters_.running >= limits_.max_running_jobs) {
       return fail(Error{ErrorCode::kResourceExhausted,
                         fmt::format("{} jobs are waiting or running already", counters_.running),
@@ -103,7 +105,11 @@ Status Jobs::cancel(std::uint64_t id) {
   return {};
 }
 
-void Jobs::cancel_all() {
+void Jobs::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
   for (const JobStatus& job : list()) static_cast<void>(cancel(job.id));
 }
 

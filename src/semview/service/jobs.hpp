@@ -44,8 +44,8 @@ class Jobs {
   /// Called after each change of a job's status, in the thread that made it; set it before use.
   void on_change(std::function<void(const JobStatus&)> listener);
 
-  /// @errors kResourceExhausted: `max_running_jobs` are waiting or running; those of
-  /// `plan_precompute`; kFailedPrecondition: no cache directory.
+  /// @errors kFailedPrecondition: no cache directory; those of `plan_precompute`;
+  /// kResourceExhausted: `max_running_jobs` are waiting or running; kUnavailable: closed.
   Result<std::uint64_t> start_precompute(std::shared_ptr<Site> site,
                                          const PrecomputeRegion& region);
 
@@ -56,7 +56,8 @@ class Jobs {
   /// Stops a waiting or running job; one that has ended stays as it is.
   /// @errors kNotFound
   Status cancel(std::uint64_t id);
-  void cancel_all();
+  /// Stops all jobs, and refuses new ones with kUnavailable from now on.
+  void close();
 
   /// Runs the oldest waiting job to its end; false if none waits.
   bool run_next();
@@ -80,6 +81,7 @@ class Jobs {
   mutable std::mutex mutex_;
   std::map<std::uint64_t, std::shared_ptr<Job>> jobs_;
   std::uint64_t next_id_ = 1;
+  bool closed_ = false;
   Counters counters_;
 };
 
