@@ -29,9 +29,10 @@ protocol::JobState state_of(service::JobState state) {
   return protocol::JobState::kFailed;
 }
 
-/// The service's error with a field of the request.
-tl::unexpected<Error> in_field(Error error, std::string_view field) {
-  if (error.field.empty() || error.field.starts_with("--")) error.field = field;
+/// The service names options of the command line: here they are fields of the request.
+tl::unexpected<Error> in_request(Error error) {
+  if (error.field == "--region") error.field = "region";
+  if (error.field == "--reachable-from") error.field = "reachable_from";
   return fail(std::move(error));
 }
 
@@ -84,9 +85,7 @@ Result<Plan> plan_start_precompute(Services& services, const Request& request) {
               find_site(services, wire.map_id(), wire.fingerprint()));
   SEMVIEW_TRY(const service::PrecomputeRegion region, region_of(wire));
   Result<std::uint64_t> id = services.jobs.start_precompute(std::move(site), region);
-  if (!id) {
-    return in_field(std::move(id).error(), wire.has_region() ? "region" : "reachable_from");
-  }
+  if (!id) return in_request(std::move(id).error());
   services.job_was_started();
   v1::StartPrecomputeReply reply;
   reply.set_job_id(wire_id(services, *id));
@@ -96,17 +95,14 @@ Result<Plan> plan_start_precompute(Services& services, const Request& request) {
 Result<Plan> plan_job_status(Services& services, const Request& request) {
   SEMVIEW_TRY(const auto wire, protocol::parse<v1::JobStatusRequest>(request.body, "body"));
   SEMVIEW_TRY(const std::uint64_t number, number_of(services, wire.job_id(), "job_id"));
-  Result<service::JobStatus> status = services.jobs.status(number);
-  if (!status) return in_field(std::move(status).error(), "job_id");
-  return answer(protocol::to_wire(progress_of(services, *status)).SerializeAsString());
+  SEMVIEW_TRY(const service::JobStatus status, services.jobs.status(number));
+  return answer(protocol::to_wire(progress_of(services, status)).SerializeAsString());
 }
 
 Result<Plan> plan_cancel_job(Services& services, const Request& request) {
   SEMVIEW_TRY(const auto wire, protocol::parse<v1::CancelJobRequest>(request.body, "body"));
   SEMVIEW_TRY(const std::uint64_t number, number_of(services, wire.job_id(), "job_id"));
-  if (Status status = services.jobs.cancel(number); !status) {
-    return in_field(std::move(status).error(), "job_id");
-  }
+  SEMVIEW_TRY_STATUS(services.jobs.cancel(number));
   return answer(v1::CancelJobReply().SerializeAsString());
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "semview/map/semantic_map.hpp"
+#include "semview/protocol/envelope.hpp"
 #include "semview/protocol/map_wire.hpp"
 
 namespace semview::server {
@@ -106,6 +107,38 @@ Result<std::uint64_t> number_of(const Services& services,
         "the server was restarted: send it again"});
   }
   return number;
+}
+
+Result<SharedObservation> find_observation(Services& services,
+                                           const std::string& id,
+                                           const std::string& map_id) {
+  constexpr std::string_view kField = "observation_id";
+  SEMVIEW_TRY(const std::uint64_t number, number_of(services, id, kField));
+  Result<service::StoredObservation> stored = services.observations.find(number);
+  if (!stored) {
+    Error error = std::move(stored).error();
+    error.field = kField;
+    return fail(std::move(error));
+  }
+  if (stored->map_id != map_id) {
+    return protocol::wrong_field(
+        kField, fmt::format("was set for map '{}', not '{}'", stored->map_id, map_id));
+  }
+  return stored->prepared;
+}
+
+Status check_queue(const Services& services, std::size_t cells, std::string_view field) {
+  const std::uint64_t waiting = services.queued_cells();
+  if (waiting + cells <= services.limits.max_queued_cells) return {};
+  return fail(Error{ErrorCode::kResourceExhausted,
+                    fmt::format("{}: {} cells on top of the {} that wait are more than {}",
+                                field,
+                                cells,
+                                waiting,
+                                services.limits.max_queued_cells),
+                    std::string(field),
+                    "the server is busy: send it again later",
+                    kRetryAfter_ms});
 }
 
 }  // namespace semview::server

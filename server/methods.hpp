@@ -101,6 +101,19 @@ Result<std::uint64_t> number_of(const Services& services,
                                 const std::string& id,
                                 std::string_view field);
 
+using SharedObservation = std::shared_ptr<const similarity::PreparedObservation>;
+
+/// An observation of a request.
+/// @errors kNotFound: unknown, dropped, or of another start of the server; kInvalidArgument: set
+/// for another map; both with field `observation_id`.
+Result<SharedObservation> find_observation(Services& services,
+                                           const std::string& id,
+                                           const std::string& map_id);
+
+/// Refuses work for which the queue has no room.
+/// @errors kResourceExhausted, with `field`.
+Status check_queue(const Services& services, std::size_t cells, std::string_view field);
+
 protocol::JobProgress progress_of(const Services& services, const service::JobStatus& status);
 
 }  // namespace semview::server

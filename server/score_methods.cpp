@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <limits>
 #include <mutex>
 #include <numeric>
 #include <utility>
@@ -13,7 +12,6 @@
 #include "semview/protocol/envelope.hpp"
 #include "semview/protocol/score_wire.hpp"
 #include "semview/protocol/view_wire.hpp"
-#include "semview/similarity/heat_map.hpp"
 #include "semview/similarity/prepared_observation.hpp"
 #include "semview/similarity/score_poses.hpp"
 #include "semview/similarity/weight_matrix.hpp"
@@ -21,33 +19,12 @@
 namespace semview::server {
 namespace {
 
-using Prepared = std::shared_ptr<const similarity::PreparedObservation>;
 using SharedSite = std::shared_ptr<service::Site>;
-
-/// @errors kNotFound: unknown, dropped, or of another start of the server; kInvalidArgument: set
-/// for another map.
-Result<Prepared> find_observation(Services& services,
-                                  const std::string& id,
-                                  const std::string& map_id) {
-  constexpr std::string_view kField = "observation_id";
-  SEMVIEW_TRY(const std::uint64_t number, number_of(services, id, kField));
-  Result<service::StoredObservation> stored = services.observations.find(number);
-  if (!stored) {
-    Error error = std::move(stored).error();
-    error.field = kField;
-    return fail(std::move(error));
-  }
-  if (stored->map_id != map_id) {
-    return protocol::wrong_field(
-        kField, fmt::format("was set for map '{}', not '{}'", stored->map_id, map_id));
-  }
-  return stored->prepared;
-}
 
 /// One Score request, its poses in order of their cells and cut between cells.
 struct Scoring {
   SharedSite site;
-  Prepared prepared;
+  SharedObservation prepared;
   ScoreRequest request;
   std::vector<std::size_t> order;  ///< of the poses
   ScoreBatch batch;
@@ -98,83 +75,6 @@ std::vector<Chunk> cut_poses(const std::shared_ptr<Scoring>& scoring,
     }
   }
   return chunks;
-}
-
-/// The best of the heat map's cells so far.
-struct HeatMapping {
-  SharedSite site;
-  Prepared prepared;
-  std::vector<CellIndex> cells;
-  int headings = PoseGrid::kHeadings;
-  CellIndex origin;
-  int columns = 0;
-  int rows = 0;
-  std::vector<float> similarity;
-  std::string best_headings;
-  std::mutex mutex;  ///< guards origins
-  ViewOrigins origins;
-};
-
-Status heat_part(HeatMapping& heat, std::size_t begin, std::size_t end, ThreadPool& pool) {
-  const std::span<const CellIndex> cells = std::span(heat.cells).subspan(begin, end - begin);
-  SEMVIEW_TRY(const similarity::HeatMap part,
-              similarity::heat_map(*heat.prepared, heat.site->views(), cells, heat.headings, pool));
-  for (const CellIndex& cell : cells) {
-    const auto to = static_cast<std::size_t>(cell.iy - heat.origin.iy) *
-                        static_cast<std::size_t>(heat.columns) +
-                    static_cast<std::size_t>(cell.ix - heat.origin.ix);
-    const int row = cell.iy - part.origin.iy;
-    const int column = cell.ix - part.origin.ix;
-    heat.similarity[to] = part.similarity.at(row, column);
-    heat.best_headings[to] = static_cast<char>(part.best_heading.at(row, column));
-  }
-  const std::lock_guard lock(heat.mutex);
-  heat.origins += part.origins;
-  return {};
-}
-
-/// The free cells of a map whose centre is in the region, row by row.
-Result<std::vector<CellIndex>> heat_cells(const Services& services,
-                                          const service::Site& site,
-                                          const v1::HeatmapRequest& wire) {
-  std::vector<CellIndex> cells = site.cells().free_cells();
-  if (wire.has_region()) {
-    const v1::Region& region = wire.region();
-    // Written so that NaN fails.
-    if (!(region.x_min_m() < region.x_max_m() && region.y_min_m() < region.y_max_m())) {
-      return protocol::wrong_field("region", "the minimum must be below the maximum");
-    }
-    std::erase_if(cells, [&region](const CellIndex& cell) {
-      const Pose2 center = PoseGrid::center(cell);
-      return center.x_m < region.x_min_m() || center.x_m > region.x_max_m() ||
-             center.y_m < region.y_min_m() || center.y_m > region.y_max_m();
-    });
-  }
-  if (cells.empty()) return protocol::wrong_field("region", "holds no free cell of the map");
-  if (cells.size() > services.limits.max_heat_map_cells) {
-    return fail(Error{ErrorCode::kResourceExhausted,
-                      fmt::format("region: {} free cells; at most {} in one request",
-                                  cells.size(),
-                                  services.limits.max_heat_map_cells),
-                      "region",
-                      "ask for parts of the map"});
-  }
-  return cells;
-}
-
-/// Refuses work for which the queue has no room.
-Status check_queue(const Services& services, std::size_t cells, std::string_view field) {
-  const std::uint64_t waiting = services.queued_cells();
-  if (waiting + cells <= services.limits.max_queued_cells) return {};
-  return fail(Error{ErrorCode::kResourceExhausted,
-                    fmt::format("{}: {} cells on top of the {} that wait are more than {}",
-                                field,
-                                cells,
-                                waiting,
-                                services.limits.max_queued_cells),
-                    std::string(field),
-                    "the server is busy: send it again later",
-                    kRetryAfter_ms});
 }
 
 }  // namespace
@@ -250,51 +150,6 @@ Result<Plan> plan_score(Services& services, const Request& request) {
   SEMVIEW_TRY_STATUS(check_queue(services, plan.chunks.size() * kCellsPerChunk, "poses"));
   plan.finish = [scoring]() -> Result<std::string> {
     return protocol::to_wire(scoring->batch).SerializeAsString();
-  };
-  return plan;
-}
-
-Result<Plan> plan_heatmap(Services& services, const Request& request) {
-  SEMVIEW_TRY(const auto wire, protocol::parse<v1::HeatmapRequest>(request.body, "body"));
-  const auto heat = std::make_shared<HeatMapping>();
-  SEMVIEW_TRY(heat->site, find_site(services, wire.map_id(), wire.fingerprint()));
-  SEMVIEW_TRY(heat->prepared, find_observation(services, wire.observation_id(), wire.map_id()));
-  const std::uint32_t headings = wire.headings() == 0 ? PoseGrid::kHeadings : wire.headings();
-  if (headings > PoseGrid::kHeadings || PoseGrid::kHeadings % headings != 0) {
-    return protocol::wrong_field("headings",
-                                 fmt::format("{}; expected a divisor of 120", headings));
-  }
-  heat->headings = static_cast<int>(headings);
-  SEMVIEW_TRY(heat->cells, heat_cells(services, *heat->site, wire));
-  SEMVIEW_TRY_STATUS(check_queue(services, heat->cells.size(), "region"));
-
-  const auto by_ix = [](const CellIndex& a, const CellIndex& b) { return a.ix < b.ix; };
-  const auto [west, east] = std::minmax_element(heat->cells.begin(), heat->cells.end(), by_ix);
-  heat->origin = {west->ix, heat->cells.front().iy};
-  heat->columns = east->ix - west->ix + 1;
-  heat->rows = heat->cells.back().iy - heat->cells.front().iy + 1;
-  const std::size_t pixels =
-      static_cast<std::size_t>(heat->columns) * static_cast<std::size_t>(heat->rows);
-  heat->similarity.assign(pixels, std::numeric_limits<float>::quiet_NaN());
-  heat->best_headings.assign(pixels, static_cast<char>(0xff));
-
-  Plan plan;
-  for (std::size_t begin = 0; begin < heat->cells.size(); begin += kCellsPerChunk) {
-    const std::size_t end = std::min(begin + kCellsPerChunk, heat->cells.size());
-    plan.chunks.push_back({end - begin, [heat, begin, end, &pool = services.inline_pool] {
-                             return heat_part(*heat, begin, end, pool);
-                           }});
-  }
-  plan.finish = [heat]() -> Result<std::string> {
-    v1::HeatmapReply reply;
-    reply.set_rows(static_cast<std::uint32_t>(heat->rows));
-    reply.set_columns(static_cast<std::uint32_t>(heat->columns));
-    reply.set_origin_ix(heat->origin.ix);
-    reply.set_origin_iy(heat->origin.iy);
-    reply.mutable_similarity()->Add(heat->similarity.begin(), heat->similarity.end());
-    reply.set_best_headings(std::move(heat->best_headings));
-    *reply.mutable_origins() = protocol::to_wire(heat->origins);
-    return reply.SerializeAsString();
   };
   return plan;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/protocol/score_wire.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace semview::protocol {
@@ -28,6 +30,9 @@ TEST(ScoreWireTest, AnObservationComesBackAsItWas) {
 
 TEST(ScoreWireTest, AnObservationsWrongFieldIsNamed) {
   v1::SetObservationRequest wire = small_observation();
+  wire.set_stamp_s(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(from_wire(wire).error().field, "stamp_s");
+  wire = small_observation();
   wire.set_rows(3);
   EXPECT_EQ(from_wire(wire).error().field, "labels");
   wire = small_observation();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What a peer may send wrongly, and that it gets a typed error which names the field.
 #include <limits>
+#include <type_traits>
+
+#include <google/protobuf/message.h>
 
 #include "semview/core/random.hpp"
 #include "server/server_fixture.hpp"
@@ -27,6 +30,18 @@ class MalformedTest : public ServerFixture {
     EXPECT_EQ(error.code(), code) << error.message();
     EXPECT_EQ(error.field(), field) << error.message();
     EXPECT_FALSE(error.message().empty());
+  }
+
+  /// Sets a message's field by its name.
+  template <typename Number>
+  static void set(google::protobuf::Message* message, const std::string& name, Number value) {
+    const auto* const field = message->GetDescriptor()->FindFieldByName(name);
+    ASSERT_NE(field, nullptr) << name;
+    if constexpr (std::is_floating_point_v<Number>) {
+      message->GetReflection()->SetDouble(message, field, value);
+    } else {
+      message->GetReflection()->SetUInt32(message, field, value);
+    }
   }
 
   std::unique_ptr<RawClient> client_;
@@ -127,6 +142,55 @@ TEST_F(MalformedTest, PosesThatAreNotFiniteAreNamed) {
   expect_error("GetViews", views, v1::ERROR_CODE_INVALID_ARGUMENT, "panoramas.profile.columns");
 }
 
+TEST_F(MalformedTest, WhatIsWrongWithAPinholeIsAFieldOfTheMessage) {
+  v1::GetViewsRequest good;
+  good.set_map_id("room");
+  v1::ExactPinholes& pinholes = *good.mutable_pinholes();
+  *pinholes.mutable_poses() = score_request("", 1).poses();
+  pinholes.set_columns(4);
+  pinholes.set_rows(3);
+  pinholes.set_fx_px(2.0);
+  pinholes.set_fy_px(2.0);
+  client_->get<v1::GetViewsReply>("GetViews", good);
+  for (const char* const name : {"columns", "rows"}) {
+    for (const std::uint32_t pixels : {0U, 5000U, 4'000'000'000U}) {
+      v1::GetViewsRequest bad = good;
+      set(bad.mutable_pinholes(), name, pixels);
+      expect_error(
+          "GetViews", bad, v1::ERROR_CODE_INVALID_ARGUMENT, std::string("pinholes.") + name);
+    }
+  }
+  for (const char* const name : {"fx_px", "fy_px", "cx_px", "cy_px", "eye_height_m"}) {
+    for (const double value : {kNan, -1e9, 1e9}) {
+      v1::GetViewsRequest bad = good;
+      set(bad.mutable_pinholes(), name, value);
+      expect_error(
+          "GetViews", bad, v1::ERROR_CODE_INVALID_ARGUMENT, std::string("pinholes.") + name);
+    }
+  }
+}
+
+TEST_F(MalformedTest, ANumberBeyondItsLimitIsToldAsItCame) {
+  v1::GetViewsRequest views;
+  views.set_map_id("room");
+  *views.mutable_panoramas()->mutable_poses() = score_request("", 1).poses();
+  for (const char* const name : {"columns", "rows"}) {
+    protocol::to_wire(site_->profile()).Swap(views.mutable_panoramas()->mutable_profile());
+    set(views.mutable_panoramas()->mutable_profile(), name, std::uint32_t{4'294'967'288});
+    const v1::Error error = client_->error_of("GetViews", views);
+    EXPECT_EQ(error.field(), std::string("panoramas.profile.") + name);
+    EXPECT_NE(error.message().find("4294967288"), std::string::npos) << error.message();
+  }
+}
+
+TEST_F(MalformedTest, AStampThatIsNotFiniteIsNamed) {
+  v1::SetObservationRequest request = observation_request();
+  for (const double stamp_s : {kNan, std::numeric_limits<double>::infinity()}) {
+    request.set_stamp_s(stamp_s);
+    expect_error("SetObservation", request, v1::ERROR_CODE_INVALID_ARGUMENT, "stamp_s");
+  }
+}
+
 TEST_F(MalformedTest, ObservationsOfAnotherSizeAreNamed) {
   v1::SetObservationRequest request = observation_request();
   request.mutable_labels()->pop_back();
@@ -180,7 +244,7 @@ TEST_F(MalformedTest, ImagesOfTooManyPixelsAreResourceExhausted) {
   views.mutable_pinholes()->set_rows(4000);
   views.mutable_pinholes()->set_fx_px(100.0);
   views.mutable_pinholes()->set_fy_px(100.0);
-  expect_error("GetViews", views, v1::ERROR_CODE_RESOURCE_EXHAUSTED, "rows");
+  expect_error("GetViews", views, v1::ERROR_CODE_RESOURCE_EXHAUSTED, "pinholes.rows");
 }
 
 TEST_F(MalformedTest, AMessageFarAboveTheLimitCutsOnlyItsOwnConnection) {
@@ -201,11 +265,31 @@ TEST_F(MalformedTest, AQuestionWithoutATargetNamesIt) {
   expect_error("GetViews", views, v1::ERROR_CODE_INVALID_ARGUMENT, "with_ranges");
 }
 
-TEST_F(MalformedTest, PrecomputeWithoutACacheDirectoryIsAFailedPrecondition) {
+TEST_F(MalformedTest, PrecomputeWithoutACacheDirectoryIsTheServersLackAndNoFieldsFault) {
   v1::StartPrecomputeRequest request;
   request.set_map_id("room");
-  EXPECT_EQ(client_->error_of("StartPrecompute", request).code(),
-            v1::ERROR_CODE_FAILED_PRECONDITION);
+  const v1::Error error = client_->error_of("StartPrecompute", request);
+  EXPECT_EQ(error.code(), v1::ERROR_CODE_FAILED_PRECONDITION);
+  EXPECT_EQ(error.field(), "");
+  EXPECT_NE(error.message().find("--cache"), std::string::npos) << error.message();
+  EXPECT_NE(error.hint().find("semview-server"), std::string::npos) << error.hint();
+}
+
+TEST_F(MalformedTest, PlacesOfAPrecomputeThatAreNoneAreNamed) {
+  service::SiteConfig config = small_sites();
+  config.cache_directory = folder_.path() / "cache";
+  server_.reset();
+  site_ = open_site(folder_.path() / "room", {}, config);
+  start({});
+  client_ = std::make_unique<RawClient>(server_->endpoint());
+  v1::StartPrecomputeRequest request;
+  request.set_map_id("room");
+  request.mutable_reachable_from()->set_x_m(1000.0);
+  expect_error("StartPrecompute", request, v1::ERROR_CODE_INVALID_ARGUMENT, "reachable_from");
+  request.mutable_region()->set_x_min_m(1.0);
+  expect_error("StartPrecompute", request, v1::ERROR_CODE_INVALID_ARGUMENT, "reachable_from");
+  request.clear_reachable_from();
+  expect_error("StartPrecompute", request, v1::ERROR_CODE_INVALID_ARGUMENT, "region");
 }
 
 }  // namespace

@@ -9,6 +9,10 @@
 
 namespace semview {
 
+inline constexpr double kMinFocalLength_px = 1.0;
+inline constexpr double kMaxFocalLength_px = 1e6;
+inline constexpr double kMaxPrincipalPoint_px = 1e6;  ///< in size, either coordinate
+
 /// Intrinsics in pixels; pixel (row r, column c) has its centre at (u, v) = (c + 0.5, r + 0.5).
 struct PinholeCamera {
   int columns = 640;

@@ -69,20 +69,29 @@ v1::ViewProfile to_wire(const ViewProfile& profile) {
 }
 
 Result<ViewProfile> from_wire(const v1::ViewProfile& wire, std::string_view field) {
-  const auto narrow = [](std::uint32_t value) {
-    return static_cast<int>(
-        std::min<std::uint32_t>(value, std::numeric_limits<std::int32_t>::max()));
-  };
-  const ViewProfile profile{{narrow(wire.columns()),
-                             narrow(wire.rows()),
+  // What no int holds is refused here, with the number that came.
+  constexpr std::uint32_t kMaxInt = std::numeric_limits<std::int32_t>::max();
+  if (wire.columns() > kMaxInt) {
+    return wrong_field(fmt::format("{}.columns", field),
+                       fmt::format("{}; expected at most {}", wire.columns(), kMaxPanoramaColumns));
+  }
+  if (wire.rows() > kMaxInt) {
+    return wrong_field(fmt::format("{}.rows", field),
+                       fmt::format("{}; expected at most {}", wire.rows(), kMaxPanoramaRows));
+  }
+  const ViewProfile profile{{static_cast<int>(wire.columns()),
+                             static_cast<int>(wire.rows()),
                              wire.elevation_min_rad(),
                              wire.elevation_max_rad()},
                             wire.eye_height_m()};
   if (Status status = semview::validate(profile); !status) {
-    Error error = std::move(status).error();
-    error.field = fmt::format("{}.{}", field, error.field);
-    error.message = fmt::format("{}: {}", error.field, error.message);
-    return fail(std::move(error));
+    const Error& error = status.error();
+    const bool minimum = !(profile.camera.elevation_min_rad >= -kPi / 2.0);
+    // The profile's elevation is two fields on the wire.
+    const std::string name = error.field != "elevation" ? error.field
+                             : minimum                  ? "elevation_min_rad"
+                                                        : "elevation_max_rad";
+    return wrong_field(fmt::format("{}.{}", field, name), error.message);
   }
   return profile;
 }

@@ -2,6 +2,7 @@
 #include "semview/protocol/score_wire.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -33,6 +34,10 @@ Result<Observation> from_wire(const v1::SetObservationRequest& wire) {
     if (name.empty() || !seen.insert(name).second) {
       return wrong_field("class_names", fmt::format("'{}' is empty or there twice", name));
     }
+  }
+  if (!std::isfinite(wire.stamp_s())) {
+    return wrong_field("stamp_s",
+                       fmt::format("{}; expected a finite number of seconds", wire.stamp_s()));
   }
   SEMVIEW_TRY(LabelImage labels,
               labels_from_bytes(wire.labels(), wire.rows(), wire.columns(), "labels"));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -121,22 +122,35 @@ Result<MapAffine> from_wire(const v1::Affine& wire, std::string_view field) {
 }
 
 Result<PinholeCamera> from_wire(const v1::ExactPinholes& wire, std::string_view field) {
-  if (wire.columns() == 0 || wire.rows() == 0 || wire.columns() > kMaxImageSide ||
-      wire.rows() > kMaxImageSide) {
-    return wrong_field(field,
-                       fmt::format("an image of {} rows × {} columns; expected 1 to {} each",
-                                   wire.rows(),
-                                   wire.columns(),
-                                   kMaxImageSide));
-  }
-  for (const double focal_length : {wire.fx_px(), wire.fy_px()}) {
-    if (!(std::isfinite(focal_length) && focal_length > 0.0)) {
-      return wrong_field(field,
-                         fmt::format("focal length {:g} px; expected above 0", focal_length));
+  const auto wrong = [field](std::string_view name, std::string message) {
+    return wrong_field(fmt::format("{}.{}", field, name), std::move(message));
+  };
+  for (const auto& [name, pixels] :
+       {std::pair("columns", wire.columns()), std::pair("rows", wire.rows())}) {
+    if (pixels == 0 || pixels > kMaxImageSide) {
+      return wrong(name, fmt::format("{}; expected 1 to {}", pixels, kMaxImageSide));
     }
   }
-  if (!std::isfinite(wire.cx_px()) || !std::isfinite(wire.cy_px())) {
-    return wrong_field(field, "cx_px and cy_px must be finite");
+  // Written so that NaN fails.
+  for (const auto& [name, length_px] :
+       {std::pair("fx_px", wire.fx_px()), std::pair("fy_px", wire.fy_px())}) {
+    if (!(length_px >= kMinFocalLength_px && length_px <= kMaxFocalLength_px)) {
+      return wrong(name,
+                   fmt::format("focal length {:g} px; expected {:g} to {:g}",
+                               length_px,
+                               kMinFocalLength_px,
+                               kMaxFocalLength_px));
+    }
+  }
+  for (const auto& [name, point_px] :
+       {std::pair("cx_px", wire.cx_px()), std::pair("cy_px", wire.cy_px())}) {
+    if (!(std::abs(point_px) <= kMaxPrincipalPoint_px)) {
+      return wrong(name,
+                   fmt::format("principal point {:g} px; expected {:g} to {:g}",
+                               point_px,
+                               -kMaxPrincipalPoint_px,
+                               kMaxPrincipalPoint_px));
+    }
   }
   return PinholeCamera{static_cast<int>(wire.columns()),
                        static_cast<int>(wire.rows()),

@@ -77,13 +77,16 @@ Status validate(const PinholeRequest& request) {
   if (camera.rows < 1 || camera.rows > kMaxPinholeRows) {
     return wrong("rows", fmt::format("rows {} must be 1 to {}", camera.rows, kMaxPinholeRows));
   }
-  const auto is_focal = [](double length_px) { return length_px >= 1.0 && length_px <= 1e6; };
+  const auto is_focal = [](double length_px) {
+    return length_px >= kMinFocalLength_px && length_px <= kMaxFocalLength_px;
+  };
   if (!is_focal(camera.fx_px) || !is_focal(camera.fy_px)) {
     return wrong(
         "pinhole",
         fmt::format("focal lengths {:g} and {:g} px must be 1 to 1e6", camera.fx_px, camera.fy_px));
   }
-  if (!(std::abs(camera.cx_px) <= 1e6 && std::abs(camera.cy_px) <= 1e6)) {
+  if (!(std::abs(camera.cx_px) <= kMaxPrincipalPoint_px &&
+        std::abs(camera.cy_px) <= kMaxPrincipalPoint_px)) {
     return wrong(
         "pinhole",
         fmt::format(
