@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "site_options.hpp"
 
-#include <charconv>
-#include <limits>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "semview/core/byte_size.hpp"
 #include "semview/geometry/angle.hpp"
 #include "verb.hpp"
 
@@ -39,29 +37,6 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
                 "Take a plan's in-between colours for the nearest class colour");
 }
 
-Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text) {
-  std::uint64_t bytes = 0;
-  const char* const end = text.data() + text.size();
-  auto [next, status] = std::from_chars(text.data(), end, bytes);
-  unsigned shift = 0;
-  if (status == std::errc() && next != end) {
-    const std::string_view unit(next, static_cast<std::size_t>(end - next));
-    const std::size_t power = std::string_view("KMGT").find(unit);
-    if (unit.size() == 1 && power != std::string_view::npos) {
-      shift = 10 * (static_cast<unsigned>(power) + 1);
-      next = end;
-    }
-  }
-  if (status != std::errc() || next != end ||
-      bytes > (std::numeric_limits<std::uint64_t>::max() >> shift)) {
-    return fail(
-        Error{ErrorCode::kInvalidArgument,
-              fmt::format("{} {}: expected a number of bytes, such as 500M or 20G", option, text),
-              std::string(option)});
-  }
-  return bytes << shift;
-}
-
 Result<service::SiteConfig> site_config(const SiteOptions& options) {
   service::SiteConfig config;
   SEMVIEW_TRY(const std::vector<double> elevation_deg,
@@ -73,7 +48,7 @@ Result<service::SiteConfig> site_config(const SiteOptions& options) {
   config.profile.eye_height_m = options.eye_height_m;
   config.engine = options.engine;
   if (!options.cache_directory.empty()) config.cache_directory = options.cache_directory;
-  SEMVIEW_TRY(config.cache_limit_bytes, parse_bytes("--cache-limit", options.cache_limit));
+  SEMVIEW_TRY(config.cache_limit_bytes, parse_byte_size("--cache-limit", options.cache_limit));
   config.threads = options.threads;
   config.nearest_colour = options.nearest_colour;
   SEMVIEW_TRY_STATUS(service::validate(config));

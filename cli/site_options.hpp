@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "semview/core/result.hpp"
 #include "semview/service/site.hpp"
@@ -41,9 +39,5 @@ Result<service::SiteConfig> site_config(const SiteOptions& options);
 
 /// Reads the options and opens the map.
 Result<std::shared_ptr<service::Site>> open_site(const SiteOptions& options);
-
-/// A number of bytes such as `500M`.
-/// @errors kInvalidArgument, with `option` as the field.
-Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text);
 
 }  // namespace semview::cli

@@ -13,10 +13,12 @@
 #include <fmt/format.h>
 
 #include "options.hpp"
+#include "semview/core/byte_size.hpp"
 #include "semview/core/log.hpp"
 #include "semview/core/version.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "sockets.hpp"
 
 namespace semview::server {
 namespace {
@@ -33,9 +35,10 @@ struct CommandLine {
   std::vector<std::string> maps;
   std::string config;
   std::optional<std::string> bind;
+  std::optional<std::uint16_t> events_port;
   std::optional<std::string> cache;
-  std::optional<std::uint64_t> cache_limit_bytes;
-  std::optional<std::uint64_t> memory_bytes;
+  std::optional<std::string> cache_limit;
+  std::optional<std::string> memory;
   std::optional<std::size_t> threads;
   std::optional<double> eye_height_m;
   std::optional<std::string> engine;
@@ -43,17 +46,27 @@ struct CommandLine {
 };
 
 void add_options(CLI::App& app, CommandLine& line) {
-  app.add_option("--map", line.maps, "[ID=]FOLDER or [ID=]FILE.glb; several may be given");
+  app.add_option(
+      "--map",
+      line.maps,
+      "[ID=]FOLDER or [ID=]FILE.glb; several may be given. ID (a-z, 0-9, _ and -) is what "
+      "clients call the map; default: its own");
   app.add_option("--config", line.config, "server.yaml: the same options and the limits");
-  app.add_option("--bind",
-                 line.bind,
-                 "tcp://ADDRESS:PORT (default tcp://127.0.0.1:5560; * as port "
-                 "takes any free one)");
+  app.add_option(
+      "--bind",
+      line.bind,
+      "tcp://ADDRESS:PORT for requests (default tcp://127.0.0.1:5560; * as port takes any "
+      "free one)");
+  app.add_option("--events-port",
+                 line.events_port,
+                 "TCP port of the progress events, on --bind's address; open it in a firewall, too "
+                 "(default 0: any free one; Hello tells clients which)");
   app.add_option("--cache", line.cache, "folder that keeps views between runs");
-  app.add_option("--cache-limit", line.cache_limit_bytes, "largest size of that folder, e.g. 10GB")
-      ->transform(CLI::AsSizeValue(false));
-  app.add_option("--memory", line.memory_bytes, "views kept in memory, e.g. 512MB (the default)")
-      ->transform(CLI::AsSizeValue(false));
+  app.add_option(
+      "--cache-limit",
+      line.cache_limit,
+      "store no more than this many bytes (500M, 20G); default 0: as far as the disk goes");
+  app.add_option("--memory", line.memory, "bytes of views kept in memory (default 512M)");
   app.add_option("--threads", line.threads, "workers (default: one a core)");
   app.add_option("--eye-height", line.eye_height_m, "camera above the ground in m (default 1.2)");
   app.add_option("--engine", line.engine, "auto or embree");
@@ -63,11 +76,20 @@ void add_options(CLI::App& app, CommandLine& line) {
 Result<Options> options_of(const CommandLine& line) {
   Options options;
   if (!line.config.empty()) SEMVIEW_TRY_STATUS(read_config(line.config, &options));
-  for (const std::string& map : line.maps) options.maps.push_back(parse_map_option(map));
+  for (const std::string& text : line.maps) {
+    SEMVIEW_TRY(MapOption map, parse_map_option(text));
+    options.maps.push_back(std::move(map));
+  }
   if (line.bind) options.server.bind = *line.bind;
+  if (line.events_port) options.server.events_port = *line.events_port;
   if (line.cache) options.site.cache_directory = *line.cache;
-  if (line.cache_limit_bytes) options.site.cache_limit_bytes = *line.cache_limit_bytes;
-  if (line.memory_bytes) options.site.memory_bytes = *line.memory_bytes;
+  if (line.cache_limit) {
+    SEMVIEW_TRY(options.site.cache_limit_bytes,
+                parse_byte_size("--cache-limit", *line.cache_limit));
+  }
+  if (line.memory) {
+    SEMVIEW_TRY(options.site.memory_bytes, parse_byte_size("--memory", *line.memory));
+  }
   if (line.threads) options.site.threads = *line.threads;
   if (line.eye_height_m) options.site.profile.eye_height_m = *line.eye_height_m;
   if (line.engine) options.site.engine = *line.engine;
@@ -116,9 +138,12 @@ Status serve(const CommandLine& line) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   SEMVIEW_TRY(Options options, options_of(line));
-  SEMVIEW_TRY(service::MapRegistry maps, open_maps(options));
   options.server.epoch = new_epoch();
-  SEMVIEW_TRY(const std::unique_ptr<Server> server, Server::start(options.server, std::move(maps)));
+  // The maps may take a while: an address that is taken is told before.
+  SEMVIEW_TRY(std::unique_ptr<Sockets> sockets, Server::bind(options.server));
+  SEMVIEW_TRY(service::MapRegistry maps, open_maps(options));
+  const std::unique_ptr<Server> server =
+      Server::serve(options.server, std::move(sockets), std::move(maps));
   if (!is_loopback(server->endpoint())) {
     log_warning(
         fmt::format("{} can be reached from other machines, and there is no authentication "

@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "semview/core/byte_size.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/yaml_document.hpp"
+#include "semview/map/map_limits.hpp"
 
 namespace semview::server {
 namespace {
@@ -22,10 +24,31 @@ Status read_count(const io::YamlNode& node, std::string_view key, T* value, std:
   const auto most = std::min<std::uint64_t>(std::numeric_limits<T>::max(),
                                             std::numeric_limits<std::int64_t>::max());
   if (number < minimum || static_cast<std::uint64_t>(number) > most) {
-    return found->error(fmt::format("{} {}; expected at least {}", key, number, minimum));
+    return found->error(fmt::format("{} {}; expected {} to {}", key, number, minimum, most));
   }
   *value = static_cast<T>(number);
   return {};
+}
+
+/// A number of bytes such as 500M, if the key is there.
+Status read_bytes(const io::YamlNode& node, std::string_view key, std::uint64_t* value) {
+  const auto found = node.find(key);
+  if (!found) return {};
+  SEMVIEW_TRY(const std::string text, found->text());
+  const Result<std::uint64_t> bytes = parse_byte_size(key, text);
+  if (!bytes) return found->error(bytes.error().message);
+  *value = *bytes;
+  return {};
+}
+
+Status check_map_id(const std::string& text, const std::string& id) {
+  if (map::is_map_id(id)) return {};
+  return fail(Error{ErrorCode::kInvalidArgument,
+                    fmt::format("map {}: '{}' is not an id; expected 1 to {} of a-z, 0-9, _ and -",
+                                text,
+                                id,
+                                map::kMaxMapIdLength),
+                    "--map"});
 }
 
 Status read_maps(const io::YamlNode& node,
@@ -36,12 +59,18 @@ Status read_maps(const io::YamlNode& node,
     MapOption option;
     if (item.is_scalar()) {
       SEMVIEW_TRY(const std::string text, item.text());
-      option = parse_map_option(text);
+      Result<MapOption> parsed = parse_map_option(text);
+      if (!parsed) return item.error(parsed.error().message);
+      option = *std::move(parsed);
     } else {
       SEMVIEW_TRY_STATUS(item.expect_keys({"id", "path"}));
       SEMVIEW_TRY(option.id, item.text_or("id", ""));
       SEMVIEW_TRY(const io::YamlNode path, item.at("path"));
       SEMVIEW_TRY(option.path, path.text());
+      const bool named = item.find("id").has_value();
+      if (Status status = check_map_id(option.path, option.id); named && !status) {
+        return item.error(status.error().message);
+      }
     }
     option.path = folder / option.path;
     maps->push_back(std::move(option));
@@ -107,11 +136,19 @@ Status read_limits(const io::YamlNode& node, ServerConfig* server) {
 
 }  // namespace
 
-MapOption parse_map_option(const std::string& text) {
+Result<MapOption> parse_map_option(const std::string& text) {
   const std::size_t equals = text.find('=');
   // A '=' after a '/' is part of a path.
-  if (equals == std::string::npos || text.find('/') < equals) return {"", text};
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  const bool named = equals != std::string::npos && text.find('/') > equals;
+  const MapOption option =
+      named ? MapOption{text.substr(0, equals), text.substr(equals + 1)} : MapOption{"", text};
+  if (named) SEMVIEW_TRY_STATUS(check_map_id(text, option.id));
+  if (option.path.empty()) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("map {}: no path; expected [ID=]FOLDER or [ID=]FILE.glb", text),
+                      "--map"});
+  }
+  return option;
 }
 
 Status read_config(const std::filesystem::path& path, Options* options) {
@@ -119,6 +156,7 @@ Status read_config(const std::filesystem::path& path, Options* options) {
   SEMVIEW_TRY_STATUS(root.expect_keys({"maps",
                                        "bind",
                                        "events",
+                                       "events_port",
                                        "cache",
                                        "cache_limit",
                                        "memory",
@@ -134,12 +172,13 @@ Status read_config(const std::filesystem::path& path, Options* options) {
   }
   SEMVIEW_TRY(options->server.bind, root.text_or("bind", options->server.bind));
   SEMVIEW_TRY(options->server.events, root.boolean_or("events", options->server.events));
+  SEMVIEW_TRY_STATUS(read_count(root, "events_port", &options->server.events_port, 0));
   if (const auto cache = root.find("cache")) {
     SEMVIEW_TRY(const std::string text, cache->text());
     options->site.cache_directory = folder / text;
   }
-  SEMVIEW_TRY_STATUS(read_count(root, "cache_limit", &options->site.cache_limit_bytes, 0));
-  SEMVIEW_TRY_STATUS(read_count(root, "memory", &options->site.memory_bytes, 0));
+  SEMVIEW_TRY_STATUS(read_bytes(root, "cache_limit", &options->site.cache_limit_bytes));
+  SEMVIEW_TRY_STATUS(read_bytes(root, "memory", &options->site.memory_bytes));
   SEMVIEW_TRY_STATUS(read_count(root, "threads", &options->site.threads, 0));
   SEMVIEW_TRY(options->site.engine, root.text_or("engine", options->site.engine));
   SEMVIEW_TRY(options->site.nearest_colour,

@@ -25,7 +25,8 @@ struct Options {
 };
 
 /// `[ID=]PATH`.
-MapOption parse_map_option(const std::string& text);
+/// @errors kInvalidArgument, field `--map`: no id before the '=', or no path behind it.
+Result<MapOption> parse_map_option(const std::string& text);
 
 /// Reads `server.yaml` over `options`: maps are added, other keys replace. Its paths are relative
 /// to its folder.

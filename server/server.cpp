@@ -94,16 +94,24 @@ class Server::Parts {
   std::thread io_thread_;
 };
 
+Result<std::unique_ptr<Sockets>> Server::bind(const ServerConfig& config) {
+  return Sockets::bind(
+      {config.bind, config.events, config.events_port, config.limits.max_message_bytes});
+}
+
+std::unique_ptr<Server> Server::serve(const ServerConfig& config,
+                                      std::unique_ptr<Sockets> sockets,
+                                      service::MapRegistry maps,
+                                      const Clock& clock) {
+  return std::unique_ptr<Server>(
+      new Server(std::make_unique<Parts>(config, std::move(maps), std::move(sockets), clock)));
+}
+
 Result<std::unique_ptr<Server>> Server::start(const ServerConfig& config,
                                               service::MapRegistry maps,
                                               const Clock& clock) {
-  SocketConfig sockets;
-  sockets.bind = config.bind;
-  sockets.events = config.events;
-  sockets.max_message_bytes = config.limits.max_message_bytes;
-  SEMVIEW_TRY(std::unique_ptr<Sockets> bound, Sockets::bind(sockets));
-  return std::unique_ptr<Server>(
-      new Server(std::make_unique<Parts>(config, std::move(maps), std::move(bound), clock)));
+  SEMVIEW_TRY(std::unique_ptr<Sockets> sockets, bind(config));
+  return serve(config, std::move(sockets), std::move(maps), clock);
 }
 
 Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}

@@ -18,6 +18,7 @@ namespace semview::server {
 struct ServerConfig {
   std::string bind = "tcp://127.0.0.1:5560";  ///< `*` as port: any free one
   bool events = true;                         ///< PUB socket for progress
+  std::uint16_t events_port = 0;              ///< of that socket; 0: any free one
   std::size_t workers = 0;                    ///< 0: one a core
   service::Limits limits = {};
   /// Bytes of requests that wait, all clients together; and as many of replies that are not read.
@@ -28,14 +29,23 @@ struct ServerConfig {
   std::uint64_t epoch = 1;
 };
 
+class Sockets;
+
 /// One thread owns the sockets, workers do the work, one more runs the long jobs.
 ///
 /// @threads All members from several threads at once.
 class Server {
  public:
-  /// Binds and serves; returns when requests can come in. `clock` must outlive the server; it
-  /// tells deadlines.
+  /// The addresses of a server to be: what is wrong with them is known before its maps are loaded.
   /// @errors those of `Sockets::bind`.
+  static Result<std::unique_ptr<Sockets>> bind(const ServerConfig& config);
+  /// Serves on bound sockets; requests that have come in already are answered. `clock` must outlive
+  /// the server; it tells deadlines.
+  static std::unique_ptr<Server> serve(const ServerConfig& config,
+                                       std::unique_ptr<Sockets> sockets,
+                                       service::MapRegistry maps,
+                                       const Clock& clock = steady_clock());
+  /// Both.
   static Result<std::unique_ptr<Server>> start(const ServerConfig& config,
                                                service::MapRegistry maps,
                                                const Clock& clock = steady_clock());

@@ -2,6 +2,7 @@
 #include "sockets.hpp"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <vector>
 
@@ -30,6 +31,14 @@ std::uint16_t port_of(std::string_view endpoint) {
   std::uint16_t port = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), port);
   return port;
+}
+
+std::string hint_of(int zmq_error) {
+  if (zmq_error == EADDRINUSE) return "another server may be running there";
+  if (zmq_error == EADDRNOTAVAIL || zmq_error == ENODEV) {
+    return "this machine has no such address; tcp://0.0.0.0:PORT is all that it has";
+  }
+  return "";
 }
 
 Status check_endpoint(const std::string& endpoint) {
@@ -61,7 +70,7 @@ struct Sockets::Parts {
     if (bell >= 0) ::close(bell);
   }
 
-  void bind(const SocketConfig& config) {
+  void bind_requests(const SocketConfig& config) {
     const auto largest = static_cast<std::int64_t>(config.max_message_bytes * kCutFactor);
     router.set(zmq::sockopt::maxmsgsize, largest);
     router.set(zmq::sockopt::linger, kLinger_ms);
@@ -71,28 +80,38 @@ struct Sockets::Parts {
     router.set(zmq::sockopt::router_mandatory, 1);
     router.bind(config.bind);
     endpoint = last_endpoint(router);
-    if (!config.events) return;
+  }
+
+  void bind_events(const std::string& address) {
     events = zmq::socket_t(context, zmq::socket_type::pub);
     events.set(zmq::sockopt::linger, 0);
     events.set(zmq::sockopt::maxmsgsize, std::int64_t{4096});
-    events.bind(fmt::format("{}:*", config.bind.substr(0, config.bind.rfind(':'))));
+    events.bind(address);
     events_endpoint = last_endpoint(events);
   }
 };
 
 Result<std::unique_ptr<Sockets>> Sockets::bind(const SocketConfig& config) {
   SEMVIEW_TRY_STATUS(check_endpoint(config.bind));
+  const std::string events_port =
+      config.events_port == 0 ? "*" : std::to_string(config.events_port);
+  std::string option = fmt::format("--bind {}", config.bind);
   try {
     auto parts = std::make_unique<Parts>();
     parts->bell = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     if (parts->bell < 0) return fail(ErrorCode::kResourceExhausted, "no file descriptor left");
-    parts->bind(config);
+    parts->bind_requests(config);
+    if (config.events) {
+      option = fmt::format("--events-port {}", events_port);
+      parts->bind_events(
+          fmt::format("{}:{}", config.bind.substr(0, config.bind.rfind(':')), events_port));
+    }
     return std::unique_ptr<Sockets>(new Sockets(std::move(parts)));
   } catch (const zmq::error_t& error) {
     return fail(Error{ErrorCode::kUnavailable,
-                      fmt::format("--bind {}: {}", config.bind, error.what()),
+                      fmt::format("{}: {}", option, error.what()),
                       "",
-                      error.num() == EADDRINUSE ? "another server may be running there" : ""});
+                      hint_of(error.num())});
   }
 }
 

@@ -27,7 +27,8 @@ struct Incoming {
 
 struct SocketConfig {
   std::string bind = "tcp://127.0.0.1:5560";  ///< `*` as port: any free one
-  bool events = true;                         ///< also a PUB socket, any free port of the address
+  bool events = true;                         ///< also a PUB socket, on the same address
+  std::uint16_t events_port = 0;              ///< 0: any free one
   std::size_t max_message_bytes = std::size_t{64} << 20U;
 };
 
@@ -35,7 +36,7 @@ struct SocketConfig {
 /// @threads All members from the one thread that owns it, but `ring` from any.
 class Sockets {
  public:
-  /// @errors kInvalidArgument: not `tcp://address:port`; kUnavailable: the address is in use or
+  /// @errors kInvalidArgument: not `tcp://address:port`; kUnavailable: an address is in use or
   /// not ours.
   static Result<std::unique_ptr<Sockets>> bind(const SocketConfig& config);
   ~Sockets();

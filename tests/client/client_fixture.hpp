@@ -14,7 +14,7 @@
 
 namespace semview::test {
 
-class ClientFixture : public testing::Test {
+class ClientFixture : public ::testing::Test {
  protected:
   void SetUp() override {
     site_ = open_site(write_room(folder_.path(), "room"));

@@ -106,7 +106,7 @@ TEST_F(ConnectionTest, ALostServerIsUnavailableAndFoundLater) {
 }
 
 /// A server made by hand: it answers what the test tells it to.
-class ConnectionToFakeTest : public testing::Test {
+class ConnectionToFakeTest : public ::testing::Test {
  protected:
   ConnectionToFakeTest() : router_(std::make_unique<zmq::socket_t>(context_, ZMQ_ROUTER)) {
     router_->set(zmq::sockopt::linger, 0);

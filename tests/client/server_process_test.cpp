@@ -1,98 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The built program semview-server as its users meet it.
 #include <csignal>
-#include <cstdio>
 #include <fstream>
-#include <sstream>
-
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "client/lib/remote_maps.hpp"
 #include "client/lib/remote_score_source.hpp"
+#include "client/lib/typed_call.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "server/room.hpp"
-#include "support/paths.hpp"
+#include "support/running_server.hpp"
 
 namespace semview::test {
 namespace {
 
-/// A child process; its standard output is read line by line, standard error goes to a file.
-class Process {
- public:
-  Process(std::vector<std::string> arguments, const std::filesystem::path& log) {
-    std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) return;
-    pid_ = ::fork();
-    if (pid_ == 0) {
-      ::dup2(ends[1], STDOUT_FILENO);
-      const int file = ::open(log.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
-      ::dup2(file, STDERR_FILENO);
-      ::close(ends[0]);
-      ::close(ends[1]);
-      std::string program = std::string(SEMVIEW_BINARY_DIR) + "/semview-server";
-      std::vector<char*> argv{program.data()};
-      for (std::string& argument : arguments) argv.push_back(argument.data());
-      argv.push_back(nullptr);
-      ::execv(program.c_str(), argv.data());
-      ::_exit(127);
-    }
-    ::close(ends[1]);
-    output_ = ::fdopen(ends[0], "r");
-  }
-  ~Process() {
-    if (running_) {
-      ::kill(pid_, SIGKILL);
-      wait();
-    }
-    if (output_ != nullptr) std::fclose(output_);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
+using semview::testing::ChildProcess;
+using semview::testing::RunningServer;
 
-  /// The next line of standard output without its end; empty at the end.
-  std::string line() {
-    std::string text;
-    for (int c = std::fgetc(output_); c != EOF && c != '\n'; c = std::fgetc(output_)) {
-      text.push_back(static_cast<char>(c));
-    }
-    return text;
-  }
-  void signal(int number) const { ::kill(pid_, number); }
-  /// The exit code, or minus the signal that ended it.
-  int wait() {
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    running_ = false;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
- private:
-  pid_t pid_ = -1;
-  bool running_ = true;
-  FILE* output_ = nullptr;
-};
-
-class ServerProcessTest : public testing::Test {
+class ServerProcessTest : public ::testing::Test {
  protected:
   ServerProcessTest() : room_(write_room(folder_.path(), "room")) {}
 
-  std::filesystem::path log() const { return folder_.path() / "log"; }
-  std::string log_text() const {
-    std::stringstream text;
-    text << std::ifstream(log()).rdbuf();
-    return text.str();
+  /// A server that serves.
+  std::unique_ptr<RunningServer> serve(std::vector<std::string> arguments) {
+    auto server = std::make_unique<RunningServer>(std::move(arguments), folder_ / "server");
+    endpoint_ = server->endpoint();
+    return server;
   }
 
-  /// A server that serves, and its endpoint.
-  std::unique_ptr<Process> serve(std::vector<std::string> arguments) {
-    auto process = std::make_unique<Process>(std::move(arguments), log());
-    const std::string line = process->line();
-    const std::string prefix = "listening on ";
-    EXPECT_TRUE(line.starts_with(prefix)) << line << log_text();
-    endpoint_ = line.substr(std::min(line.size(), prefix.size()));
-    return process;
+  /// A server that does not come to serve: its exit code, and what it said in `errors_`.
+  int fail_to_serve(std::vector<std::string> arguments) {
+    ChildProcess server("semview-server", std::move(arguments), folder_ / "server");
+    const int code = server.wait();
+    errors_ = server.errors();
+    return code;
   }
 
   client::Connection connect() const {
@@ -105,6 +45,7 @@ class ServerProcessTest : public testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path room_;
   std::string endpoint_;
+  std::string errors_;
 };
 
 TEST_F(ServerProcessTest, ServesSeveralMapsAndLeavesOnSigterm) {
@@ -123,7 +64,7 @@ TEST_F(ServerProcessTest, ServesSeveralMapsAndLeavesOnSigterm) {
     EXPECT_EQ(maps->at(1).id, "twin");
     server->signal(number);
     EXPECT_EQ(server->wait(), 0);
-    EXPECT_EQ(log_text().find("trusted networks"), std::string::npos);
+    EXPECT_EQ(server->errors().find("trusted networks"), std::string::npos);
   }
 }
 
@@ -150,31 +91,70 @@ TEST_F(ServerProcessTest, WarnsOfAnAddressThatOthersReach) {
   const auto server = serve({"--map", room_.string(), "--bind", "tcp://0.0.0.0:*"});
   server->signal(SIGTERM);
   EXPECT_EQ(server->wait(), 0);
-  EXPECT_NE(log_text().find("no authentication"), std::string::npos);
+  EXPECT_NE(server->errors().find("no authentication"), std::string::npos);
 }
 
 TEST_F(ServerProcessTest, WrongUseIsToldInOneLineAndExitsWithTwo) {
+  const std::string room = room_.string();
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{}, "no map given"},
-      {{"--map", room_.string(), "--bind", "127.0.0.1:5"}, "expected tcp://"},
-      {{"--map", room_.string(), "--engine", "crystal"}, "engine"},
+      {{"--map", room, "--bind", "127.0.0.1:5"}, "expected tcp://"},
+      {{"--map", room, "--engine", "crystal"}, "engine"},
+      {{"--map", "Attic=" + room}, "'Attic' is not an id; expected 1 to 64 of a-z, 0-9, _ and -"},
+      {{"--map", "=" + room}, "'' is not an id"},
+      {{"--map", "attic="}, "no path"},
+      {{"--map", room, "--cache-limit", "-1"}, "--cache-limit -1: expected a number of bytes"},
+      {{"--map", room, "--cache-limit", "10GB"}, "--cache-limit 10GB: expected a number of bytes"},
+      {{"--map", room, "--memory", "much"}, "--memory much: expected a number of bytes"},
+      {{"--map", room, "--events-port", "70000"}, "--events-port"},
       {{"--nonsense"}, "nonsense"},
   };
   for (const auto& [arguments, expected] : cases) {
-    Process server(arguments, log());
-    EXPECT_EQ(server.wait(), 2) << expected;
-    EXPECT_NE(log_text().find(expected), std::string::npos) << log_text();
+    EXPECT_EQ(fail_to_serve(arguments), 2) << expected;
+    EXPECT_NE(errors_.find(expected), std::string::npos) << errors_;
   }
 }
 
 TEST_F(ServerProcessTest, WrongFilesAreToldWithTheirPlaceAndExitWithOne) {
-  Process missing({"--map", "/nowhere"}, log());
-  EXPECT_EQ(missing.wait(), 1);
-  EXPECT_NE(log_text().find("/nowhere"), std::string::npos);
-  std::ofstream(folder_.path() / "server.yaml") << "bind: tcp://127.0.0.1:*\nlimit: 3\n";
-  Process config({"--config", (folder_.path() / "server.yaml").string()}, log());
-  EXPECT_EQ(config.wait(), 1);
-  EXPECT_NE(log_text().find("server.yaml:2"), std::string::npos) << log_text();
+  EXPECT_EQ(fail_to_serve({"--map", "/nowhere", "--bind", "tcp://127.0.0.1:*"}), 1);
+  EXPECT_NE(errors_.find("/nowhere"), std::string::npos) << errors_;
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"limit: 3", "server.yaml:2"},
+      {"cache_limit: 10GB", "server.yaml:2: cache_limit 10GB: expected a number of bytes"},
+      {"events_port: 70000", "server.yaml:2: events_port 70000; expected 0 to 65535"},
+      {"maps: [Attic=room]", "'Attic' is not an id"},
+      {"maps: [{id: Attic, path: room}]", "'Attic' is not an id"},
+  };
+  for (const auto& [line, expected] : cases) {
+    const auto config = folder_.write("server.yaml", "bind: tcp://127.0.0.1:*\n" + line + "\n");
+    EXPECT_EQ(fail_to_serve({"--config", config.string()}), 1);
+    EXPECT_NE(errors_.find(expected), std::string::npos) << errors_;
+  }
+}
+
+TEST_F(ServerProcessTest, AnAddressThatIsTakenIsToldBeforeAnyMapIsLoaded) {
+  const auto server = serve({"--map", room_.string(), "--bind", "tcp://127.0.0.1:*"});
+  EXPECT_EQ(fail_to_serve({"--map", "/nowhere", "--bind", endpoint_}), 1);
+  EXPECT_NE(errors_.find("--bind " + endpoint_), std::string::npos) << errors_;
+  const std::string taken = endpoint_.substr(endpoint_.rfind(':') + 1);
+  EXPECT_EQ(
+      fail_to_serve({"--map", "/nowhere", "--bind", "tcp://127.0.0.1:*", "--events-port", taken}),
+      1);
+  EXPECT_NE(errors_.find("--events-port " + taken), std::string::npos) << errors_;
+}
+
+TEST_F(ServerProcessTest, TheEventsComeFromThePortThatWasNamed) {
+  // A port that was free a moment ago.
+  const auto first = serve({"--map", room_.string(), "--bind", "tcp://127.0.0.1:*"});
+  const std::string port = endpoint_.substr(endpoint_.rfind(':') + 1);
+  first->signal(SIGTERM);
+  ASSERT_EQ(first->wait(), 0);
+  const auto server =
+      serve({"--map", room_.string(), "--bind", "tcp://127.0.0.1:*", "--events-port", port});
+  client::Connection connection = connect();
+  const auto hello = client::typed_call<v1::HelloReply>(connection, "Hello", v1::HelloRequest());
+  ASSERT_TRUE(hello) << hello.error().message;
+  EXPECT_EQ(std::to_string(hello->events_port()), port);
 }
 
 TEST_F(ServerProcessTest, PrecomputesAndKeepsWhatItHasCast) {

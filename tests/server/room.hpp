@@ -2,7 +2,6 @@
 /// A small room as a map bundle on disk, and sites of it, for tests of server and client.
 #pragma once
 
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "semview/geometry/image.hpp"
 #include "semview/io/png.hpp"
@@ -19,27 +17,11 @@
 #include "semview/service/map_registry.hpp"
 #include "semview/service/site.hpp"
 #include "semview/view/observation.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace semview::test {
 
-/// A folder that goes away with its owner.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static std::atomic<int> count{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("semview_server_test_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using semview::testing::TemporaryFolder;
 
 /// Writes a room of 4 m × 3 m, its lower-left corner at (0, 0), with walls of 0.1 m all around and
 /// a table of 1 m × 0.5 m whose left edge stands at `table_x_m`.

@@ -17,7 +17,7 @@
 
 namespace semview::test {
 
-class ServerFixture : public testing::Test {
+class ServerFixture : public ::testing::Test {
  protected:
   void SetUp() override {
     site_ = open_site(write_room(folder_.path(), "room"));

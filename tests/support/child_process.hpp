@@ -5,15 +5,16 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/eventually.hpp"
 #include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -42,43 +43,51 @@ class ChildProcess {
     }
   }
   ~ChildProcess() {
-    if (!running_) return;
-    ::kill(pid_, SIGKILL);
+    signal(SIGKILL);
     wait();
   }
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  void signal(int number) const { ::kill(pid_, number); }
-
-  /// The exit code, or minus the signal that ended it.
-  int wait() {
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    running_ = false;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  /// Not to one that has ended: its number may be another's by now.
+  void signal(int number) {
+    if (!ended()) ::kill(pid_, number);
   }
+
+  /// The exit code, or minus the signal that ended it; kNotEnded if it still runs after `patience`.
+  int wait(std::chrono::seconds patience = std::chrono::seconds(600)) {
+    return eventually([this] { return ended(); }, patience) ? *code_ : kNotEnded;
+  }
+  static constexpr int kNotEnded = -1000;
 
   std::string output() const { return file_bytes(out_); }
   std::string errors() const { return file_bytes(err_); }
 
   /// Waits until standard output or standard error holds `text`; false if it never does.
-  bool says(std::string_view text, std::chrono::seconds patience = std::chrono::seconds(60)) const {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (std::chrono::steady_clock::now() < end) {
-      if (output().find(text) != std::string::npos || errors().find(text) != std::string::npos) {
-        return true;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return false;
+  bool says(std::string_view text, std::chrono::seconds patience = kPatience) {
+    bool said = false;
+    // What a program said before its end counts.
+    const auto said_or_ended = [&] {
+      const bool over = ended();
+      said = output().find(text) != std::string::npos || errors().find(text) != std::string::npos;
+      return said || over;
+    };
+    return eventually(said_or_ended, patience) && said;
   }
 
  private:
+  bool ended() {
+    if (code_) return true;
+    int status = 0;
+    if (::waitpid(pid_, &status, WNOHANG) != pid_) return false;
+    code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return true;
+  }
+
   std::filesystem::path out_;
   std::filesystem::path err_;
   pid_t pid_ = -1;
-  bool running_ = true;
+  std::optional<int> code_;
 };
 
 }  // namespace semview::testing

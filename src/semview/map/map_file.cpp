@@ -49,18 +49,11 @@ TextField read_text(YamlFields& fields, std::string_view key, Need need, std::st
   return text ? TextField{*text, fields.line_of(key)} : TextField{};
 }
 
-bool is_valid_id(std::string_view id) {
-  return !id.empty() && id.size() <= kMaxMapIdLength &&
-         std::all_of(id.begin(), id.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-         });
-}
-
 void read_identity(MapFile& file, YamlFields& fields) {
   const std::optional<std::string> id = fields.text("id", Need::kOptional);
   const Path folder = std::filesystem::absolute(file.path).lexically_normal().parent_path();
   file.id = id ? *id : folder.filename().string();
-  if (!is_valid_id(file.id)) {
+  if (!is_map_id(file.id)) {
     fields.error(
         id ? fields.line_of("id") : fields.line(),
         fmt::format(

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 namespace semview::map {
 
@@ -14,5 +15,11 @@ inline constexpr double kMaxOrigin_m = 900'000.0;
 inline constexpr std::size_t kMaxGridCells = 100'000'000;
 inline constexpr std::size_t kMaxMapIdLength = 64;
 inline constexpr std::size_t kMaxClassNameLength = 64;
+
+/// An id is 1 to `kMaxMapIdLength` of a-z, 0-9, _ and -.
+inline bool is_map_id(std::string_view id) {
+  return !id.empty() && id.size() <= kMaxMapIdLength &&
+         id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
+}
 
 }  // namespace semview::map
