@@ -14,11 +14,16 @@ UNKNOWN = 255  # in observations: not seen or undecided, never scored
 HEADINGS = 120
 
 
-def connect(endpoint="tcp://127.0.0.1:5560", timeout_s=30.0, client_name="python"):
-    """A Server; raises SemviewError if none answers."""
+def connect(
+    endpoint="tcp://127.0.0.1:5560", timeout_s=30.0, client_name="python", connect_timeout_s=5.0
+):
+    """A Server; raises SemviewError if none answers within `connect_timeout_s`.
+
+    timeout_s is how long later calls may take, which can be long work.
+    """
     server = Server(Connection(endpoint, timeout_s, client_name))
     try:
-        server.hello()
+        server.hello(min(connect_timeout_s, timeout_s))
     except SemviewError:
         server.close()
         raise
@@ -27,8 +32,11 @@ def connect(endpoint="tcp://127.0.0.1:5560", timeout_s=30.0, client_name="python
 
 @dataclass
 class View:
-    """labels: uint8 class ids, rows × columns, 0 = nothing hit; None where the cell has no view.
-    ranges_m: float32 of the same shape (pinholes: depth), +inf = nothing hit; None unless asked."""
+    """labels: uint8 class ids, rows × columns. 0 = the ray met no surface: it left the building, or
+    there is no ceiling. None = there is no view: outside the building, more than 0.5 m from where an
+    eye can be (exact views are cast from anywhere; docs/conventions.md#view-of-a-cell).
+    ranges_m: float32 of the same shape (pinholes: depth), +inf where labels are 0; None unless asked.
+    """
 
     labels: Optional[np.ndarray]
     ranges_m: Optional[np.ndarray] = None
@@ -69,7 +77,10 @@ class HeatMap:
 
 def _poses(poses):
     """Packed lists of an (n, 3) array of x, y, yaw."""
-    array = np.atleast_2d(np.asarray(poses, dtype=np.float64))
+    array = np.asarray(poses, dtype=np.float64)
+    if array.size == 0:
+        raise ValueError("no poses; expected at least one of x, y, yaw")
+    array = np.atleast_2d(array)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"poses of shape {array.shape}; expected (n, 3): x, y, yaw")
     return views_pb2.Poses(x_m=array[:, 0], y_m=array[:, 1], yaw_rad=array[:, 2])
@@ -111,9 +122,11 @@ class Server:
     def __init__(self, connection):
         self.connection = connection
 
-    def hello(self):
+    def hello(self, timeout_s=None):
         """Version, methods and limits, as the message HelloReply."""
-        return self.connection.call("Hello", envelope_pb2.HelloRequest(), envelope_pb2.HelloReply)
+        return self.connection.call(
+            "Hello", envelope_pb2.HelloRequest(), envelope_pb2.HelloReply, timeout_s
+        )
 
     def maps(self) -> List[str]:
         """The ids of the maps."""
@@ -167,6 +180,9 @@ class Map:
         ).reshape(-1, 2)
 
     def class_name(self, class_id):
+        """The name of an id of a view's labels; "none" for 0, "unknown" for ids of no class."""
+        if not 0 <= class_id <= 255:
+            raise ValueError(f"class id {class_id}; expected 0 to 255")
         if class_id == 0:
             return "none"
         return self.classes[class_id - 1] if class_id <= len(self.classes) else "unknown"
@@ -177,12 +193,14 @@ class Map:
         return self._connection.call("GetMap", request, maps_pb2.GetMapReply).glb
 
     def views(self, poses, exact=False, ranges=False) -> List[View]:
-        """The panorama at each pose (x, y, yaw).
+        """The panorama at each pose (x, y, yaw); no poses, no views.
 
         exact   cast at the pose itself; otherwise the stored view of its 10 cm cell, turned to
                 its heading on the 3° grid
         ranges  also metres along each ray; implies `exact`
         """
+        if len(poses) == 0:
+            return []
         request = views_pb2.GetViewsRequest(map_id=self.id, fingerprint=self._fingerprint)
         if exact or ranges:
             request.panoramas.poses.CopyFrom(_poses(poses))
@@ -194,6 +212,8 @@ class Map:
         self, poses, columns, rows, fx_px, fy_px, cx_px, cy_px, eye_height_m=0.0, depths=False
     ) -> List[View]:
         """What a level pinhole camera sees at each pose, looking along its yaw."""
+        if len(poses) == 0:
+            return []
         request = views_pb2.GetViewsRequest(map_id=self.id, fingerprint=self._fingerprint)
         request.pinholes.CopyFrom(
             views_pb2.ExactPinholes(

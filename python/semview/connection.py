@@ -36,10 +36,20 @@ def _error(wire):
     return SemviewError(name, wire.message, wire.field, wire.hint, wire.retry_after_ms)
 
 
+def _no_endpoint(endpoint):
+    return SemviewError(
+        "INVALID_ARGUMENT",
+        f"{endpoint!r} is not an endpoint; expected tcp://HOST:PORT, for example tcp://127.0.0.1:5560",
+        "endpoint",
+    )
+
+
 class Connection:
     """Not for several threads at once; several connections may live in one program."""
 
     def __init__(self, endpoint, timeout_s=30.0, client_name="python"):
+        if not isinstance(endpoint, str) or not endpoint.startswith("tcp://"):
+            raise _no_endpoint(endpoint)
         self.endpoint = endpoint
         self.timeout_s = timeout_s
         self.client_name = client_name
@@ -55,7 +65,11 @@ class Connection:
             self._socket.close(linger=0)
         self._socket = self._context.socket(zmq.DEALER)
         self._socket.linger = 0
-        self._socket.connect(self.endpoint)
+        try:
+            self._socket.connect(self.endpoint)
+        except zmq.ZMQError as error:
+            self.close()
+            raise _no_endpoint(self.endpoint) from error
 
     def close(self):
         self._socket.close(linger=0)
@@ -78,7 +92,7 @@ class Connection:
                 self._connect()
                 raise SemviewError(
                     "UNAVAILABLE",
-                    f"no answer from {self.endpoint} within {timeout_s:g} s",
+                    f"nothing answered at {self.endpoint} within {timeout_s:g} s",
                     hint="is semview-server running there?",
                 )
             frames = self._socket.recv_multipart()

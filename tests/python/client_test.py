@@ -4,12 +4,14 @@
 Needs in the environment: PYTHONPATH (build/<preset>/python), SEMVIEW_SERVER, SEMVIEW_SOURCE_DIR,
 SEMVIEW_PROTOC.
 """
+import contextlib
 import os
 import re
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -175,12 +177,37 @@ class ClientTest(unittest.TestCase):
         with self.assertRaises(ValueError):
             self.map.views([(0.0, 0.0)])
 
+    def test_no_poses_have_no_views_and_no_scores(self):
+        self.assertEqual(self.map.views([]), [])
+        self.assertEqual(self.map.views(np.zeros((0, 3)), ranges=True), [])
+        self.assertEqual(self.map.pinhole_views([], 5, 3, 50.0, 50.0, 2.5, 1.5), [])
+        (view,) = self.map.views([self.pose])
+        with self.assertRaisesRegex(ValueError, "no poses"):
+            self.map.set_observation(view.labels).score([])
+
+    def test_class_names_are_those_of_ids(self):
+        self.assertEqual(self.map.class_name(0), "none")
+        self.assertEqual(self.map.class_name(1), self.map.classes[0])
+        self.assertEqual(self.map.class_name(semview.UNKNOWN), "unknown")
+        with self.assertRaisesRegex(ValueError, "class id -1"):
+            self.map.class_name(-1)
+
 
 class OtherServersTest(unittest.TestCase):
-    def test_nobody_there_is_unavailable(self):
+    def test_nobody_there_is_told_soon_whatever_later_calls_may_take(self):
+        start = time.monotonic()
         with self.assertRaises(semview.SemviewError) as caught:
-            semview.connect("tcp://127.0.0.1:1", timeout_s=0.1)
+            semview.connect("tcp://127.0.0.1:1", timeout_s=600, connect_timeout_s=0.2)
+        self.assertLess(time.monotonic() - start, 60)
         self.assertEqual(caught.exception.code, "UNAVAILABLE")
+        self.assertIn("nothing answered at tcp://127.0.0.1:1", str(caught.exception))
+
+    def test_what_is_no_endpoint_is_told_with_an_example(self):
+        for endpoint in ("localhost:5560", "tcp://127.0.0.1", "tcp://127.0.0.1:port", "", None):
+            with self.assertRaises(semview.SemviewError) as caught:
+                semview.connect(endpoint)
+            self.assertEqual(caught.exception.code, "INVALID_ARGUMENT")
+            self.assertIn("tcp://127.0.0.1:5560", str(caught.exception))
 
     def test_an_observation_survives_a_restart(self):
         running = RunningServer("--eye-height", "1.0")
@@ -200,44 +227,58 @@ class OtherServersTest(unittest.TestCase):
             self.assertEqual(running.close(), 0)
 
 
-class RawExampleTest(unittest.TestCase):
-    """The examples in the documentation that use nothing of ours but the messages."""
+class ExamplesTest(unittest.TestCase):
+    """The examples of the documentation, as they stand there, against the real server."""
 
-    def run_examples(self, page):
-        if not page.exists():
-            self.skipTest(f"no {page.name}")
-        blocks = re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL)
-        raw = [block for block in blocks if "_pb2" in block]
-        if not raw:
-            self.skipTest(f"{page.name} has no raw example")
-        running = RunningServer()
-        try:
-            with tempfile.TemporaryDirectory() as folder:
-                protos = [str(p) for p in (SOURCE / "proto/semview/v1").glob("*.proto")]
-                subprocess.run(
-                    [os.environ["SEMVIEW_PROTOC"], "-I", SOURCE / "proto", f"--python_out={folder}"]
-                    + protos,
-                    check=True,
-                )
-                for block in raw:
-                    code = block.replace("tcp://127.0.0.1:5560", running.endpoint)
-                    done = subprocess.run(
-                        [sys.executable, "-B", "-c", code],
-                        env={**os.environ, "PYTHONPATH": folder},
-                        capture_output=True,
-                        text=True,
-                        timeout=60,
-                    )
-                    self.assertEqual(done.returncode, 0, done.stderr)
-                    self.assertTrue(done.stdout)
-        finally:
-            self.assertEqual(running.close(), 0)
+    @classmethod
+    def setUpClass(cls):
+        cls.running = RunningServer()
+        cls.messages = tempfile.TemporaryDirectory()
+        protos = [str(path) for path in (SOURCE / "proto/semview/v1").glob("*.proto")]
+        subprocess.run(
+            [os.environ["SEMVIEW_PROTOC"], "-I", SOURCE / "proto"]
+            + [f"--python_out={cls.messages.name}"]
+            + protos,
+            check=True,
+        )
 
-    def test_protocol_page(self):
-        self.run_examples(SOURCE / "docs/protocol.md")
+    @classmethod
+    def tearDownClass(cls):
+        cls.messages.cleanup()
+        assert cls.running.close() == 0
 
-    def test_readme(self):
-        self.run_examples(SOURCE / "README.md")
+    def run_example(self, page, mark, python_path):
+        """What the page's one block of Python that holds `mark` prints."""
+        blocks = re.findall(r"```python\n(.*?)```", (SOURCE / page).read_text(), re.DOTALL)
+        marked = [block for block in blocks if mark in block]
+        self.assertEqual(len(marked), 1, f"{page}: blocks of Python with {mark}")
+        self.assertIn("tcp://127.0.0.1:5560", marked[0])
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", marked[0].replace("tcp://127.0.0.1:5560", self.running.endpoint)],
+            env={**os.environ, "PYTHONPATH": python_path},
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def raw_example_lists_the_map(self, page):
+        with contextlib.closing(semview.connect(self.running.endpoint)) as server:
+            flat = server.map(MAP)
+        printed = self.run_example(page, "_pb2", self.messages.name)
+        self.assertEqual(printed, f"{flat.id} {flat.name} {flat.fingerprint}\n")
+
+    def test_the_readme_sees_a_class_of_the_map_straight_ahead(self):
+        printed = self.run_example("README.md", "semview.connect", os.environ["PYTHONPATH"])
+        with contextlib.closing(semview.connect(self.running.endpoint)) as server:
+            self.assertIn(printed.strip(), server.map(MAP).classes)
+
+    def test_the_readme_lists_the_maps_without_our_library(self):
+        self.raw_example_lists_the_map("README.md")
+
+    def test_the_protocol_page_lists_the_maps_without_our_library(self):
+        self.raw_example_lists_the_map("docs/protocol.md")
 
 
 if __name__ == "__main__":
