@@ -9,6 +9,7 @@
 
 namespace semview {
 
+inline constexpr int kMaxPinholeSide_px = 4096;  ///< rows or columns
 inline constexpr double kMinFocalLength_px = 1.0;
 inline constexpr double kMaxFocalLength_px = 1e6;
 inline constexpr double kMaxPrincipalPoint_px = 1e6;  ///< in size, either coordinate

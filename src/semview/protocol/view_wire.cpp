@@ -15,7 +15,7 @@
 namespace semview::protocol {
 namespace {
 
-/// Pixels a side of an image that a request may ask for or bring.
+/// Pixels a side of an image that a request may bring.
 constexpr std::uint32_t kMaxImageSide = 16'384;
 
 Status check_count(int count, int other, std::size_t limit, std::string_view field) {
@@ -127,8 +127,8 @@ Result<PinholeCamera> from_wire(const v1::ExactPinholes& wire, std::string_view 
   };
   for (const auto& [name, pixels] :
        {std::pair("columns", wire.columns()), std::pair("rows", wire.rows())}) {
-    if (pixels == 0 || pixels > kMaxImageSide) {
-      return wrong(name, fmt::format("{}; expected 1 to {}", pixels, kMaxImageSide));
+    if (pixels == 0 || pixels > kMaxPinholeSide_px) {
+      return wrong(name, fmt::format("{}; expected 1 to {}", pixels, kMaxPinholeSide_px));
     }
   }
   // Written so that NaN fails.

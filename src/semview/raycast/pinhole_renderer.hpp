@@ -11,8 +11,8 @@
 
 namespace semview::raycast {
 
-inline constexpr int kMaxPinholeColumns = 4096;
-inline constexpr int kMaxPinholeRows = 4096;
+inline constexpr int kMaxPinholeColumns = kMaxPinholeSide_px;
+inline constexpr int kMaxPinholeRows = kMaxPinholeSide_px;
 
 struct PinholeRequest {
   Eigen::Isometry3d map_from_camera = Eigen::Isometry3d::Identity();  ///< optical frame

@@ -117,7 +117,9 @@ Result<PrecomputePlan> plan_precompute(const Site& site, const PrecomputeRegion&
   plan.free_cells = free.size();
   plan.cells = view_cells(grid, free);
   if (plan.cells.empty()) {
-    return fail(ErrorCode::kNotFound, fmt::format("map {}: no free cell there", site.id()));
+    return fail(Error{ErrorCode::kNotFound,
+                      fmt::format("map {}: no free cell there", site.id()),
+                      region.rectangle_m ? "--region" : ""});
   }
   return plan;
 }
