@@ -290,6 +290,10 @@ TEST_F(MalformedTest, PlacesOfAPrecomputeThatAreNoneAreNamed) {
   expect_error("StartPrecompute", request, v1::ERROR_CODE_INVALID_ARGUMENT, "reachable_from");
   request.clear_reachable_from();
   expect_error("StartPrecompute", request, v1::ERROR_CODE_INVALID_ARGUMENT, "region");
+  request.mutable_region()->set_x_min_m(1000.0);
+  request.mutable_region()->set_x_max_m(1001.0);
+  request.mutable_region()->set_y_max_m(1.0);
+  expect_error("StartPrecompute", request, v1::ERROR_CODE_NOT_FOUND, "region");
 }
 
 }  // namespace
