@@ -2,7 +2,6 @@
 #include "client/lib/connection.hpp"
 
 #include <future>
-#include <thread>
 
 #include <zmq.hpp>
 
@@ -11,6 +10,7 @@
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/protocol/envelope.hpp"
+#include "support/eventually.hpp"
 
 namespace semview::test {
 namespace {
@@ -83,9 +83,12 @@ TEST_F(ConnectionTest, ACallWaitsForAServerThatComesBackInTime) {
   auto connection = Connection::open(config());
   ASSERT_TRUE(client::list_maps(*connection));
   stop();
-  auto answer =
-      std::async(std::launch::async, [&connection] { return client::list_maps(*connection); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  std::promise<void> asking;
+  auto answer = std::async(std::launch::async, [&] {
+    asking.set_value();
+    return client::list_maps(*connection);
+  });
+  asking.get_future().wait();
   start();
   EXPECT_TRUE(answer.get());
 }
@@ -204,14 +207,14 @@ TEST_F(ConnectionToFakeTest, WhatIsSafeIsSentAgainWhenTheLineBreaks) {
   router_->set(zmq::sockopt::linger, 0);
   router_->set(zmq::sockopt::rcvtimeo, 10'000);
   // The port is ours again as soon as the old socket has let go.
-  for (int i = 0; i < 200; ++i) {
+  ASSERT_TRUE(semview::testing::eventually([this] {
     try {
       router_->bind(config_.endpoint);
-      break;
+      return true;
     } catch (const zmq::error_t&) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      return false;
     }
-  }
+  }));
   const auto got = receive();
   ASSERT_TRUE(got);
   reply(*got, got->header.request_id());

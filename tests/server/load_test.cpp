@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
-#include <thread>
 
 #include "plan.hpp"
 #include "server/server_fixture.hpp"
@@ -26,7 +25,7 @@ TEST_F(LoadTest, ExpiredRequestsAreAnsweredAndNotBegun) {
   hurried.set_deadline_ms(100);
   client.send(RawClient::header("Score", 1), score_request(id, 200'000).SerializeAsString());
   client.send(hurried, score_request(id, 1).SerializeAsString());
-  while (server_->counters().in_flight < 2) std::this_thread::yield();
+  ASSERT_TRUE(eventually([this] { return server_->counters().in_flight >= 2; }));
   clock_.advance(milliseconds(101));
   bool expired = false;
   for (int i = 0; i < 2; ++i) {
@@ -54,7 +53,7 @@ TEST_F(LoadTest, AGreedyClientDoesNotStarveAnother) {
   header.set_client_name("greedy");
   constexpr int kLarge = 100;
   for (int i = 0; i < kLarge; ++i) greedy.send(header, large);
-  while (server_->counters().in_flight < kLarge / 2) std::this_thread::yield();
+  ASSERT_TRUE(eventually([this] { return server_->counters().in_flight >= kLarge / 2; }));
 
   header.set_client_name("robot");
   const std::string small = score_request(id, 1).SerializeAsString();
@@ -122,9 +121,9 @@ TEST_F(LoadTest, AClientThatReadsLateGetsEveryReply) {
   // 24 MB of replies: more than the sockets on the way hold.
   constexpr int kCount = 100;
   for (std::uint64_t i = 0; i < kCount; ++i) client.send(RawClient::header("Score", i), body);
-  while (server_->counters().requests < kCount || server_->counters().in_flight > 0) {
-    std::this_thread::yield();
-  }
+  ASSERT_TRUE(eventually([this] {
+    return server_->counters().requests >= kCount && server_->counters().in_flight == 0;
+  }));
   expect_alive();
   std::set<std::uint64_t> ids;
   for (int i = 0; i < kCount; ++i) {

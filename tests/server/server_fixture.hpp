@@ -14,8 +14,11 @@
 #include "server.hpp"
 #include "server/raw_client.hpp"
 #include "server/room.hpp"
+#include "support/eventually.hpp"
 
 namespace semview::test {
+
+using semview::testing::eventually;
 
 class ServerFixture : public ::testing::Test {
  protected:

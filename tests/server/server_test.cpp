@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server.hpp"
 
-#include <thread>
-
 #include "semview/core/thread_pool.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
@@ -258,9 +256,9 @@ TEST_F(ServerTest, ProgressOfAPrecomputeIsPublishedAndAskedFor) {
   v1::JobStatusRequest status;
   for (int i = 0; i < 100 && job_id.empty(); ++i) {
     status.set_job_id(client.get<v1::StartPrecomputeReply>("StartPrecompute", request).job_id());
-    while (client.get<v1::JobStatusReply>("JobStatus", status).state() != v1::JOB_STATE_DONE) {
-      std::this_thread::yield();
-    }
+    ASSERT_TRUE(eventually([&] {
+      return client.get<v1::JobStatusReply>("JobStatus", status).state() == v1::JOB_STATE_DONE;
+    }));
     zmq::message_t frame;
     while (events.recv(frame)) {
       EXPECT_TRUE(frame.more());

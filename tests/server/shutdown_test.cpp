@@ -2,7 +2,6 @@
 /// How a server ends: what is inside is answered, the rest refused, and nothing is used after its
 /// end.
 #include <chrono>
-#include <thread>
 
 #include "server/server_fixture.hpp"
 
@@ -19,9 +18,9 @@ TEST_F(ShutdownTest, DrainAnswersWhatIsInsideAndRefusesTheRest) {
   const std::string id = set_observation(client);
   constexpr int kCount = 20;
   for (std::uint64_t i = 0; i < kCount; ++i) {
-    client.send(RawClient::header("Score", i), score_request(id, 2000).SerializeAsString());
+    client.send(RawClient::header("Score", i), score_request(id, 20'000).SerializeAsString());
   }
-  while (server_->counters().in_flight < kCount / 2) std::this_thread::yield();
+  ASSERT_TRUE(eventually([this] { return server_->counters().in_flight >= kCount / 2; }));
   EXPECT_TRUE(server_->drain(seconds(60)));
   for (int i = 0; i < kCount; ++i) {
     const auto reply = client.receive();
@@ -38,7 +37,7 @@ TEST_F(ShutdownTest, AServerThatEndsWhileRequestsArePlannedWaitsForItsWorkers) {
   const std::string body = score_request(set_observation(client), 200'000).SerializeAsString();
   constexpr std::uint64_t kCount = 40;
   for (std::uint64_t i = 0; i < kCount; ++i) client.send(RawClient::header("Score", i), body);
-  while (server_->counters().in_flight < kCount / 2) std::this_thread::yield();
+  ASSERT_TRUE(eventually([this] { return server_->counters().in_flight >= kCount / 2; }));
   EXPECT_FALSE(server_->drain(milliseconds(0)));
   server_.reset();
 }
