@@ -6,8 +6,7 @@
 #include "semview/cache/lmdb_state.hpp"
 #include "semview/view/view_codec.hpp"
 
-namespace semview::cache {
-namespace detail {
+namespace semview::cache::detail {
 namespace {
 
 constexpr std::array kDescriptionMagic = {
@@ -121,6 +120,4 @@ Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes) {
   return entry;
 }
 
-}  // namespace detail
-
-}  // namespace semview::cache
+}  // namespace semview::cache::detail

@@ -121,6 +121,7 @@ Result<std::vector<KeyspaceEntry>> LmdbStore::keyspaces() const {
         return {};
       }));
   std::vector<KeyspaceEntry> list;
+  list.reserve(entries.size());
   for (auto& [name, entry] : entries) list.push_back(std::move(entry));
   return list;
 }

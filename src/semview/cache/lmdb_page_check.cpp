@@ -67,7 +67,7 @@ enum class Role { kFreePages, kMain, kNamed };
 
 template <typename T>
 T read(std::span<const std::byte> bytes, std::size_t offset) {
-  T value;
+  T value{};
   std::memcpy(&value, bytes.data() + offset, sizeof(T));
   return value;
 }
@@ -125,7 +125,7 @@ class PageWalk {
   Status walk_page(std::uint64_t number, int height, Role role) {
     SEMVIEW_TRY_STATUS(claim(number, 1));
     const std::span<const std::byte> page = file_.subspan(number * page_bytes_, page_bytes_);
-    const PageHead head = read<PageHead>(page, 0);
+    const auto head = read<PageHead>(page, 0);
     if (head.number != number) {
       return damaged(number, fmt::format("calls itself page {}", head.number));
     }
@@ -162,7 +162,7 @@ class PageWalk {
     if (at < head.upper || at + sizeof(NodeHead) > page.size()) {
       return damaged(head.number, "a node lies out of bounds");
     }
-    const NodeHead node = read<NodeHead>(page, at);
+    const auto node = read<NodeHead>(page, at);
     const std::span<const std::byte> rest = page.subspan(at + sizeof(NodeHead));
     if (node.key_bytes > std::min(kMaxKeyBytes, rest.size()) || (!branch && node.key_bytes == 0)) {
       return damaged(head.number, "a key is too long or empty");

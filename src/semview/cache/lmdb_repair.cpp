@@ -60,9 +60,11 @@ using TakeRecord =
 /// record twice.
 Status for_each_sound_record(std::span<const std::byte> file, const TakeRecord& take) {
   while (true) {
-    const auto found = std::ranges::search(file, kRecordMagic);
-    if (found.empty()) return {};
-    file = file.subspan(static_cast<std::size_t>(found.begin() - file.begin()));
+    // Not std::ranges::search: clang 14 cannot compile it for a span.
+    const auto found =
+        std::search(file.begin(), file.end(), kRecordMagic.begin(), kRecordMagic.end());
+    if (found == file.end()) return {};
+    file = file.subspan(static_cast<std::size_t>(found - file.begin()));
     const std::size_t length = record_length(file);
     const std::span<const std::byte> bytes = file.first(std::min(length, file.size()));
     const Result<Record> record = decode_record(bytes);

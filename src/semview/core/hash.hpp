@@ -17,7 +17,7 @@ namespace semview {
 struct Fingerprint {
   std::array<std::uint8_t, 16> bytes{};
 
-  auto operator<=>(const Fingerprint&) const = default;
+  auto operator<=>(const Fingerprint&) const = default;  // NOLINT(modernize-use-nullptr): its own 0
 };
 
 /// 32 lower-case hexadecimal digits.

@@ -261,7 +261,7 @@ void PreparedObservation::all_headings(const ColumnView& view,
           }
           above = below;
         }
-        std::array<std::int16_t, kBlock> column;
+        std::array<std::int16_t, kBlock> column{};
         std::memcpy(column.data(), lanes.data(), sizeof(column));
         for (std::size_t i = 0; i < kBlock; ++i) group[i] += column[i];
       }
