@@ -52,7 +52,7 @@ void check_mesh_space(const std::filesystem::path& path,
   if (!check.map || check.map->mesh() == nullptr) return;
   const Result<map::CellGrid> grid = cell_grid_of(*check.map, eye_height_m);
   if (grid) {
-    check_free_space(*grid, nullptr, path, check.report);
+    check_free_space(*grid, *check.map, eye_height_m, check.report);
   } else {
     check.report.problems.push_back(map::problem_of(path, grid.error()));
   }
@@ -66,6 +66,7 @@ int check_maps(const Options& options) {
     check_mesh_space(path, options.check.eye_height_m, checks.back());
   }
   check_unique_ids(paths, checks);
+  for (map::MapCheck& check : checks) sort_by_place(check.report);
   bool errors = false;
   nlohmann::json list = nlohmann::json::array();
   for (std::size_t i = 0; i < checks.size(); ++i) {

@@ -33,10 +33,15 @@ class MapCheckerTest : public ::testing::Test {
     return check_map(folder_.path(), options);
   }
 
-  /// Expects exactly one problem and returns it.
-  MapProblem only(const MapCheck& check, Severity severity) {
+  static std::string text_of(const MapCheck& check) {
     std::string all;
     for (const MapProblem& problem : check.report.problems) all += to_string(problem) + "\n";
+    return all;
+  }
+
+  /// Expects exactly one problem and returns it.
+  MapProblem only(const MapCheck& check, Severity severity) {
+    const std::string all = text_of(check);
     EXPECT_EQ(check.report.problems.size(), 1U) << all;
     if (check.report.problems.empty()) return {};
     const MapProblem& problem = check.report.problems.front();
@@ -125,24 +130,20 @@ TEST_F(MapCheckerTest, ColourOfOutside) {
   check_loads_ = false;
   const MapCheck result =
       check(replaced(map_yaml(), "outside: [0, 0, 0]", "outside: [120, 120, 120]"));
-  ASSERT_GE(result.report.problems.size(), 1U);
-  EXPECT_THAT(to_string(result.report.problems[0]),
-              HasSubstr("class wall has the colour of outside"));
+  EXPECT_THAT(text_of(result),
+              HasSubstr("map.yaml:16: error: class wall has the colour of outside"));
 }
 
 TEST_F(MapCheckerTest, ColourThatIsNone) {
-  const MapCheck result = check(replaced(map_yaml(), "[255, 6, 82]", "[256, 6, 82]"));
-  ASSERT_GE(result.report.problems.size(), 1U);
-  EXPECT_THAT(to_string(result.report.problems[0]),
-              HasSubstr("map.yaml:19: error: colour value 256"));
+  expect_error(
+      replaced(map_yaml(), "[255, 6, 82]", "[256, 6, 82]"), 19, {"error: colour value 256"});
 }
 
 // Names and ids
 
 TEST_F(MapCheckerTest, DuplicateName) {
   const MapCheck result = check(replaced(map_yaml(), "{name: ceiling}", "{name: floor}"));
-  ASSERT_GE(result.report.problems.size(), 1U);
-  EXPECT_THAT(to_string(result.report.problems[0]),
+  EXPECT_THAT(text_of(result),
               HasSubstr("map.yaml:15: error: class floor is listed twice (first in line 14)"));
 }
 
@@ -194,9 +195,7 @@ TEST_F(MapCheckerTest, NoThicknessIsPaintAtTheGroundOnly) {
 
 TEST_F(MapCheckerTest, HeightMissingOrNoNumber) {
   expect_error(replaced(map_yaml(), "min_height: 0.7, ", ""), 19, {"lacks min_height"});
-  const MapCheck result = check(replaced(map_yaml(), "min_height: 0.7,", "min_height: high,"));
-  EXPECT_THAT(to_string(result.report.problems.at(0)), HasSubstr("map.yaml:19: error: "));
-  EXPECT_THAT(to_string(result.report.problems.at(0)), HasSubstr("high"));
+  expect_error(replaced(map_yaml(), "min_height: 0.7,", "min_height: high,"), 19, {"high"});
 }
 
 TEST_F(MapCheckerTest, HeightOutOfLimits) {
@@ -222,9 +221,10 @@ TEST_F(MapCheckerTest, WarnsOfHeightsCutAtCeilingAndGround) {
 // References
 
 TEST_F(MapCheckerTest, UnknownClassInAboveBelowCeilingAndGround) {
-  expect_error(replaced(map_yaml(), "2.1, above: wall}", "2.1, above: wal}"),
-               17,
-               {"above of class door names class wal", "listed: ceiling, floor, wall"});
+  expect_error(
+      replaced(map_yaml(), "2.1, above: wall}", "2.1, above: wal}"),
+      17,
+      {"above of class door names class wal", "did you mean wall? listed: ceiling, floor, wall"});
   expect_error(replaced(map_yaml(), "below: wall", "below: brick"),
                18,
                {"below of class window names class brick"});
@@ -253,8 +253,10 @@ TEST_F(MapCheckerTest, WarnsOfUnusedClasses) {
 TEST_F(MapCheckerTest, UnknownKeysAreErrorsInOurBlockOnly) {
   expect_error(replaced(map_yaml(), "  name: Test room", "  nmae: Test room"),
                8,
-               {"unknown key nmae", "known here:"});
-  expect_error(replaced(map_yaml(), "movable", "moveable"), 19, {"unknown key moveable"});
+               {"unknown key nmae", "did you mean name? known here:"});
+  expect_error(replaced(map_yaml(), "movable", "moveable"),
+               19,
+               {"unknown key moveable", "did you mean movable?"});
   EXPECT_TRUE(check("mode: trinary\n" + map_yaml()).report.problems.empty());
 }
 
@@ -331,6 +333,52 @@ TEST_F(MapCheckerTest, TooManyClasses) {
   EXPECT_THAT(to_string(result.report.problems.at(0)), HasSubstr("266 classes are too many"));
 }
 
+TEST_F(MapCheckerTest, OneSlipIsOneError) {
+  expect_error(replaced(map_yaml(), "  format: 1", "  fromat: 1"), 6, {"did you mean format?"});
+  expect_error(
+      replaced(map_yaml(), "labels: labels", "label: labels"), 9, {"did you mean labels?"});
+  expect_error(replaced(map_yaml(), "ground: {", "gruond: {"), 11, {"did you mean ground?"});
+  expect_error(replaced(map_yaml(), "  outside:", "  outsied:"), 12, {"did you mean outside?"});
+  expect_error(replaced(map_yaml(), "  classes:", "  clases:"), 13, {"did you mean classes?"});
+  expect_error(replaced(map_yaml(), "{name: wall", "{nmae: wall"), 16, {"did you mean name?"});
+  expect_error(replaced(map_yaml(), "floor, color", "floor, colour"), 15, {"did you mean color?"});
+  expect_error(replaced(map_yaml(), "0.7, max_height", "0.7, max_hieght"), 19, {"max_height?"});
+  expect_error(replaced(map_yaml(), "ceiling, height: 2.6", "ceiling, height: high"), 10, {"high"});
+  expect_error(replaced(map_yaml(), "  labels: labels.png", "  labels: [a]"), 9, {"labels"});
+}
+
+TEST_F(MapCheckerTest, AFarWordIsNotSuggested) {
+  const MapCheck result = check(replaced(map_yaml(), "  name: Test room", "  author: somebody"));
+  EXPECT_THAT(text_of(result), HasSubstr("unknown key author; known here:"));
+}
+
+TEST_F(MapCheckerTest, AMapIsMadeOfFilesInItsFolder) {
+  for (const std::string bad : {"../../..", "../labels.png", "/etc/passwd", "a/../../labels.png"}) {
+    expect_error(replaced(map_yaml(), "labels: labels.png", "labels: " + bad),
+                 9,
+                 {"labels " + bad + " is not in the map's folder", "put the file beside map.yaml"});
+  }
+  expect_error(replaced(map_yaml(), "labels: labels.png", "mesh: ../house.glb"),
+               9,
+               {"mesh ../house.glb is not in"});
+  EXPECT_TRUE(check(replaced(map_yaml(), "labels: labels.png", "labels: ./labels.png"))
+                  .report.problems.empty());
+}
+
+TEST_F(MapCheckerTest, ProblemsAreListedByFileAndPlace) {
+  std::vector<std::string> rows = room();
+  rows[6][4] = '?';
+  std::string yaml = replaced(map_yaml(), "movable: 0.5", "movable: 5");
+  yaml = replaced(yaml, "test_room", "Test room");
+  const MapCheck result = check(replaced(yaml, "above: wall}", "above: brick}"), rows);
+  std::vector<std::string> places;
+  for (const MapProblem& problem : result.report.problems) {
+    places.push_back(problem.file.filename().string() + ":" + std::to_string(problem.line));
+  }
+  EXPECT_THAT(places,
+              ::testing::ElementsAre("labels.png:0", "map.yaml:7", "map.yaml:17", "map.yaml:19"));
+}
+
 // Images
 
 TEST_F(MapCheckerTest, MissingOrUnreadableImage) {
@@ -369,9 +417,19 @@ TEST_F(MapCheckerTest, TooLargeAnAreaIsAskedForItsResolution) {
 
 TEST_F(MapCheckerTest, NoFreeSpace) {
   check_loads_ = true;
-  const MapCheck result = check(map_yaml(), {"###", "#T#", "###"});
-  EXPECT_THAT(to_string(result.report.problems.back()), HasSubstr("there is no free space"));
-  EXPECT_TRUE(result.report.has_errors());
+  const MapCheck blocked = check(map_yaml(), {"   ", " T#", "###"});
+  EXPECT_THAT(
+      text_of(blocked),
+      HasSubstr("labels.png: pixel (x 1, y 1): error: there is no free space: from here on "));
+  EXPECT_THAT(text_of(blocked), HasSubstr("draw floor"));
+  EXPECT_TRUE(blocked.report.has_errors());
+  const MapCheck outside = check(map_yaml(), {"  ", "  "});
+  EXPECT_THAT(text_of(outside),
+              HasSubstr("labels.png: error: there is no free space: every pixel"));
+  const std::string fine = replaced(map_yaml(), "resolution: 0.1", "resolution: 0.001");
+  const MapCheck tiny = check(fine, {"###", "#.#", "###"});
+  EXPECT_THAT(text_of(tiny), HasSubstr("labels.png: pixel (x 1, y 1): error: there is no free"));
+  EXPECT_THAT(text_of(tiny), HasSubstr("is the resolution of 0.001 m per pixel right?"));
 }
 
 TEST_F(MapCheckerTest, WarnsOfDisconnectedFreeSpace) {
@@ -384,6 +442,7 @@ TEST_F(MapCheckerTest, WarnsOfDisconnectedFreeSpace) {
   const MapProblem problem = only(result, Severity::kWarning);
   const std::string text = to_string(problem);
   EXPECT_THAT(text, HasSubstr("13 of 27 free cells"));
+  EXPECT_EQ(problem.file.filename(), "labels.png");
   ASSERT_TRUE(problem.pixel);
   EXPECT_LT(problem.pixel->column, 6) << "the left room is the smaller part";
 }

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "semview/map/map_limits.hpp"
+#include "semview/map/spelling.hpp"
 
 namespace semview::map::detail {
 namespace {
@@ -30,13 +31,14 @@ class ClassRules {
     check_names();
     check_level(file_.ground, "ground");
     if (file_.ceiling) check_level(*file_.ceiling, "ceiling");
-    if (file_.ceiling && !(file_.ceiling->height_m > file_.ground.height_m)) {
+    if (!ceiling_is_above_ground()) {
       add(Severity::kError,
           file_.path,
           file_.ceiling->line,
           fmt::format("ceiling height {} is not above the ground's height {}",
                       file_.ceiling->height_m,
-                      file_.ground.height_m));
+                      file_.ground.height_m),
+          "heights are z in frame map, in metres");
     }
     check_colors();
     if (file_.is_mesh()) return;
@@ -48,6 +50,13 @@ class ClassRules {
   }
 
  private:
+  /// Heights that could not be read are no ground for more complaints.
+  bool knows_ground() const { return file_.is_mesh() || file_.ground.has_height; }
+  bool ceiling_is_above_ground() const {
+    return !file_.ceiling || !file_.ceiling->has_height || !knows_ground() ||
+           file_.ceiling->height_m > file_.ground.height_m;
+  }
+
   void check_names() {
     std::map<std::string, int> lines;
     for (const ClassField& field : file_.classes) {
@@ -106,7 +115,7 @@ class ClassRules {
   void check_heights(const ClassField& field) {
     const MapClass& value = field.value;
     if (!field.has_heights) {
-      if (value.color || field.height_line > 0) {
+      if (!field.heights_refused && (value.color || field.height_line > 0)) {
         error(field.line,
               fmt::format("class {} lacks min_height or max_height", value.name),
               "a class that is drawn has both");
@@ -119,11 +128,12 @@ class ClassRules {
             fmt::format("min_height {} of class {} is above its max_height {}",
                         value.min_height_m,
                         value.name,
-                        value.max_height_m));
+                        value.max_height_m),
+            "min_height is the lower face's");
       return;
     }
     if (value.min_height_m == value.max_height_m) {
-      if (value.min_height_m == ground_m) return;
+      if (value.min_height_m == ground_m || !knows_ground()) return;
       error(
           field.height_line,
           fmt::format(
@@ -137,21 +147,25 @@ class ClassRules {
 
   void check_cuts(const ClassField& field) {
     const MapClass& value = field.value;
-    if (file_.ceiling && value.max_height_m > file_.ceiling->height_m) {
+    const bool has_ceiling =
+        file_.ceiling && file_.ceiling->has_height && ceiling_is_above_ground();
+    if (has_ceiling && value.max_height_m > file_.ceiling->height_m) {
       warn(field.height_line,
            fmt::format("class {} is cut at the ceiling: max_height {} is above {}",
                        value.name,
                        value.max_height_m,
                        file_.ceiling->height_m),
-           value.min_height_m >= file_.ceiling->height_m ? "nothing is left of it" : "");
+           value.min_height_m >= file_.ceiling->height_m ? "nothing is left of it"
+                                                         : "lower it or raise the ceiling");
     }
-    if (value.min_height_m < file_.ground.height_m) {
+    if (knows_ground() && value.min_height_m < file_.ground.height_m) {
       warn(field.height_line,
            fmt::format("class {} is cut at the ground: min_height {} is below {}",
                        value.name,
                        value.min_height_m,
                        file_.ground.height_m),
-           value.max_height_m <= file_.ground.height_m ? "nothing is left of it" : "");
+           value.max_height_m <= file_.ground.height_m ? "nothing is left of it"
+                                                       : "raise it or lower the ground");
     }
   }
 
@@ -165,9 +179,10 @@ class ClassRules {
       unknown_class(
           file_.classes_path,
           line,
+          name,
           fmt::format(
               "{} of class {} names class {}, which is not listed", key, field.value.name, name));
-    } else if (!found->second->has_heights) {
+    } else if (!found->second->has_heights && !found->second->heights_refused) {
       error(line,
             fmt::format(
                 "{} of class {} names class {}, which has no heights", key, field.value.name, name),
@@ -180,17 +195,22 @@ class ClassRules {
     unknown_class(
         file_.path,
         level.class_name.line,
+        level.class_name.text,
         fmt::format("{} names class {}, which is not listed", key, level.class_name.text));
   }
 
-  void unknown_class(const std::filesystem::path& path, int line, std::string message) {
-    std::vector<std::string> names;
+  void unknown_class(const std::filesystem::path& path,
+                     int line,
+                     const std::string& name,
+                     std::string message) {
+    if (!file_.all_named) return;  // it may be the one whose name could not be read
+    std::vector<std::string_view> names;
     for (const ClassField& field : file_.classes) names.push_back(field.value.name);
     add(Severity::kError,
         path,
         line,
         std::move(message),
-        fmt::format("listed: {}", fmt::join(names, ", ")));
+        did_you_mean(name, names) + fmt::format("listed: {}", fmt::join(names, ", ")));
   }
 
   void add(Severity severity,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/map/map_checker.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +12,7 @@
 
 #include "semview/core/check.hpp"
 #include "semview/map/map_reader.hpp"
+#include "semview/map/occupancy.hpp"
 
 namespace semview::map {
 namespace {
@@ -20,39 +24,70 @@ Path file_of(const Path& path) {
   return std::filesystem::is_directory(path, ignored) ? path / "map.yaml" : path;
 }
 
-}  // namespace
-
-MapCheck check_map(const Path& path, const CheckOptions& options) {
-  MapCheck check;
-  check.map = detail::read_map(path, options.load, check.report);
-  if (check.map && check.map->columns() != nullptr) {
-    const CellGrid grid = build_cell_grid(*check.map->columns(), options.eye_height_m);
-    check_free_space(grid, check.map->columns(), path, check.report);
-  }
-  return check;
+/// The file that free space is a matter of.
+Path geometry_file(const SemanticMap& map) {
+  return map.mesh() != nullptr ? map.mesh()->file : map.drawing;
 }
 
-void check_free_space(const CellGrid& grid,
-                      const ColumnMap* columns,
-                      const Path& path,
-                      MapReport& report) {
-  const Path file = file_of(path);
-  const std::vector<GridComponent> parts = grid.components();
-  if (parts.empty()) {
-    report.problems.push_back(file_problem(
-        Severity::kError,
-        file,
-        "there is no free space: no 10 cm cell is inside the building without an obstacle between "
-        "the ground and the eye",
-        "draw floor; a slab between 0.05 m above the ground and the eye blocks a cell"));
-    return;
+std::optional<PixelIndex> first_pixel(const Image<std::uint8_t>& image, std::uint8_t grey) {
+  const auto pixels = image.pixels();
+  const auto found = std::find(pixels.begin(), pixels.end(), grey);
+  if (found == pixels.end()) return std::nullopt;
+  const int at = static_cast<int>(found - pixels.begin());
+  return PixelIndex{at / image.columns(), at % image.columns()};
+}
+
+MapProblem no_space_drawn(const SemanticMap& map, const ColumnMap& columns, double eye_height_m) {
+  MapProblem problem = file_problem(Severity::kError, geometry_file(map), {}, {});
+  const Image<std::uint8_t> occupancy = occupancy_image(columns, eye_height_m);
+  if ((problem.pixel = first_pixel(occupancy, kFreeGrey))) {
+    problem.message =
+        "there is no free space: what is free begins here, but nowhere does it cover the centre of "
+        "a 10 cm cell";
+    problem.remedy =
+        fmt::format("is the resolution of {} m per pixel right?", columns.resolution_m);
+  } else if ((problem.pixel = first_pixel(occupancy, kOccupiedGrey))) {
+    problem.message = fmt::format(
+        "there is no free space: from here on every pixel inside the building has something "
+        "between 0.05 m above the ground and the eye at {} m",
+        eye_height_m);
+    problem.remedy = fmt::format("draw {}, or mark as passable what a robot drives through",
+                                 map.classes.name(map.ground_label));
+  } else {
+    problem.message = "there is no free space: every pixel is outside";
+    problem.remedy = fmt::format("draw {}", map.classes.name(map.ground_label));
   }
-  if (parts.size() == 1) return;
+  return problem;
+}
+
+MapProblem no_space_in_mesh(const SemanticMap& map, double eye_height_m) {
+  float lowest = std::numeric_limits<float>::infinity();
+  float highest = -lowest;
+  for (const Eigen::Vector3f& vertex : map.mesh()->mesh.vertices) {
+    lowest = std::min(lowest, vertex.z());
+    highest = std::max(highest, vertex.z());
+  }
+  return file_problem(
+      Severity::kError,
+      geometry_file(map),
+      fmt::format("there is no free space: nowhere does an eye {} m above the ground see a surface "
+                  "within 0.05 m of the ground's height {}; the mesh reaches from z = {:.2f} to "
+                  "{:.2f}",
+                  eye_height_m,
+                  map.ground_height_m,
+                  lowest,
+                  highest),
+      "give the z of the storey's floor as `ground: {height: ...}` in map.yaml");
+}
+
+MapProblem space_in_parts(const CellGrid& grid,
+                          const std::vector<GridComponent>& parts,
+                          const SemanticMap& map) {
   const GridComponent& largest_other = parts[1];
   const Pose2 center = PoseGrid::center(largest_other.first);
   MapProblem problem = file_problem(
       Severity::kWarning,
-      file,
+      geometry_file(map),
       fmt::format("{} of {} free cells, in {} part{}, cannot be reached from the largest part; the "
                   "largest of them has {} cells and begins at ({:.2f}, {:.2f}) m",
                   grid.free_count() - parts[0].cells,
@@ -63,8 +98,35 @@ void check_free_space(const CellGrid& grid,
                   center.x_m,
                   center.y_m),
       "join them by a door (passable), or fill what no robot can enter");
-  if (columns != nullptr) problem.pixel = columns->pixel_at(center.x_m, center.y_m);
-  report.problems.push_back(std::move(problem));
+  if (map.columns() != nullptr) problem.pixel = map.columns()->pixel_at(center.x_m, center.y_m);
+  return problem;
+}
+
+}  // namespace
+
+MapCheck check_map(const Path& path, const CheckOptions& options) {
+  MapCheck check;
+  check.map = detail::read_map(path, options.load, check.report);
+  if (check.map && check.map->columns() != nullptr) {
+    const CellGrid grid = build_cell_grid(*check.map->columns(), options.eye_height_m);
+    check_free_space(grid, *check.map, options.eye_height_m, check.report);
+  }
+  sort_by_place(check.report);
+  return check;
+}
+
+void check_free_space(const CellGrid& grid,
+                      const SemanticMap& map,
+                      double eye_height_m,
+                      MapReport& report) {
+  const std::vector<GridComponent> parts = grid.components();
+  if (parts.empty()) {
+    report.problems.push_back(map.columns() != nullptr
+                                  ? no_space_drawn(map, *map.columns(), eye_height_m)
+                                  : no_space_in_mesh(map, eye_height_m));
+  } else if (parts.size() > 1) {
+    report.problems.push_back(space_in_parts(grid, parts, map));
+  }
 }
 
 void check_unique_ids(std::span<const Path> paths, std::span<MapCheck> checks) {

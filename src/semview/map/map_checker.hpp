@@ -26,11 +26,11 @@ struct MapCheck {
 MapCheck check_map(const std::filesystem::path& path, const CheckOptions& options = {});
 
 /// Adds to `report` what is wrong with free space: none (an error), or parts that cannot be reached
-/// from each other (a warning, with the pixel if there are `columns`). `check_map` does so for
-/// drawn maps; the grid of a mesh takes ray casting, which this module does not have.
+/// from each other (a warning), with the drawing's pixel or the mesh's file. `check_map` does so
+/// for drawn maps; the grid of a mesh takes ray casting, which this module does not have.
 void check_free_space(const CellGrid& grid,
-                      const ColumnMap* columns,
-                      const std::filesystem::path& path,
+                      const SemanticMap& map,
+                      double eye_height_m,
                       MapReport& report);
 
 /// Adds an error to each map whose id another one before it has: ids are unique in a server.

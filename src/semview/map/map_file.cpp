@@ -44,6 +44,17 @@ std::optional<double> read_height(YamlFields& fields, std::string_view key, Need
   return height_m;
 }
 
+/// A map is a folder that can be copied and served as it is: what it is made of lies in it.
+bool stays_inside(YamlFields& fields, std::string_view key, const std::string& name) {
+  const Path path = Path(name).lexically_normal();
+  if (!name.empty() && path.is_relative() && *path.begin() != "..") return true;
+  fields.error(fields.line_of(key),
+               name.empty() ? fmt::format("{} is empty", key)
+                            : fmt::format("{} {} is not in the map's folder", key, name),
+               "put the file beside map.yaml and write its name");
+  return false;
+}
+
 TextField read_text(YamlFields& fields, std::string_view key, Need need, std::string_view example) {
   const std::optional<std::string> text = fields.text(key, need, example);
   return text ? TextField{*text, fields.line_of(key)} : TextField{};
@@ -84,15 +95,32 @@ std::optional<LevelField> read_level(YamlFields& parent,
   LevelField level;
   level.line = node->line();
   level.class_name = read_text(fields, "class", class_need, example);
-  level.height_m = read_height(fields, "height", Need::kRequired).value_or(0.0);
+  const std::optional<double> height_m = read_height(fields, "height", Need::kRequired);
+  level.height_m = height_m.value_or(0.0);
+  level.has_height = height_m.has_value();
   return level;
 }
 
-std::optional<ClassField> read_class(const io::YamlNode& node,
-                                     const Path& path,
-                                     MapReport& report) {
-  YamlFields fields(node, path, report);
+/// Both heights of a class, or what is known of why they are not there.
+void read_heights(ClassField& field, YamlFields& fields) {
+  const std::optional<double> low_m = read_height(fields, "min_height", Need::kOptional);
+  const std::optional<double> high_m = read_height(fields, "max_height", Need::kOptional);
+  field.value.min_height_m = low_m.value_or(0.0);
+  field.value.max_height_m = high_m.value_or(0.0);
+  field.has_heights = low_m && high_m;
+  const auto refused = [&](const char* key, const std::optional<double>& height_m) {
+    return !height_m && (fields.line_of(key) > 0 || fields.misspelt(key));
+  };
+  field.heights_refused = refused("min_height", low_m) || refused("max_height", high_m);
+  field.height_line = std::max(fields.line_of("min_height"), fields.line_of("max_height"));
+}
+
+/// An entry of the class list; notes in `file` what is not known of it.
+std::optional<ClassField> read_class(const io::YamlNode& node, MapFile& file, MapReport& report) {
+  YamlFields fields(node, file.classes_path, report);
   if (!node.is_mapping()) {
+    file.all_named = false;
+    file.all_coloured = false;
     fields.error(node.line(),
                  "a class is not a mapping",
                  "write for example `- {name: wall, color: [120, 120, 120], min_height: 0.0, "
@@ -111,26 +139,25 @@ std::optional<ClassField> read_class(const io::YamlNode& node,
   ClassField field;
   field.line = node.line();
   field.color_line = fields.line_of("color");
-  field.height_line = std::max(fields.line_of("min_height"), fields.line_of("max_height"));
   field.above_line = fields.line_of("above");
   field.below_line = fields.line_of("below");
   MapClass& value = field.value;
   value.name = fields.text("name", Need::kRequired, "name: wall").value_or("");
+  file.all_named = file.all_named && !value.name.empty();
   if (const auto color = fields.node("color", Need::kOptional)) {
     value.color = read_color(fields, *color);
+    file.all_coloured = file.all_coloured && value.color;
   }
-  const std::optional<double> low_m = read_height(fields, "min_height", Need::kOptional);
-  const std::optional<double> high_m = read_height(fields, "max_height", Need::kOptional);
-  value.min_height_m = low_m.value_or(0.0);
-  value.max_height_m = high_m.value_or(0.0);
-  field.has_heights = low_m && high_m;
+  file.all_coloured = file.all_coloured && !fields.misspelt("color");
+  read_heights(field, fields);
   value.above = fields.text("above", Need::kOptional).value_or("");
   value.below = fields.text("below", Need::kOptional).value_or("");
   value.passable = fields.boolean("passable").value_or(value.name == "door");
   value.movable = fields.number("movable", Need::kOptional).value_or(0.0);
   if (!(value.movable >= 0.0 && value.movable <= 1.0)) {
     fields.error(fields.line_of("movable"),
-                 fmt::format("movable {} of class {} is not in 0..1", value.movable, value.name));
+                 fmt::format("movable {} of class {} is not in 0..1", value.movable, value.name),
+                 "it is the probability that it stands elsewhere");
   }
   if (const auto aliases = fields.node("aliases", Need::kOptional)) {
     value.aliases = fields.take(aliases->texts()).value_or(std::vector<std::string>{});
@@ -145,6 +172,7 @@ void read_classes(MapFile& file, YamlFields& fields, MapReport& report) {
   if (list && list->is_scalar()) {
     const std::optional<std::string> name = fields.take(list->text());
     if (!name) return;
+    if (!stays_inside(fields, "classes", *name)) return;
     file.classes_path = file.path.parent_path() / *name;
     Result<io::YamlNode> document = io::read_yaml(file.classes_path);
     if (!document) {
@@ -162,8 +190,9 @@ void read_classes(MapFile& file, YamlFields& fields, MapReport& report) {
                                            "write a list, or the name of a file that holds one"));
     return;
   }
+  file.has_classes = true;
   for (const io::YamlNode& item : list->items()) {
-    const std::optional<ClassField> field = read_class(item, file.classes_path, report);
+    const std::optional<ClassField> field = read_class(item, file, report);
     if (field) file.classes.push_back(*field);
   }
 }
@@ -172,7 +201,7 @@ void read_raster(MapFile& file, YamlFields& fields) {
   file.image = read_text(fields, "image", Need::kOptional, {});
   if (const auto resolution = fields.number("resolution", Need::kRequired, "resolution: 0.02")) {
     file.resolution_m = *resolution;
-    if (!(*resolution >= kMinResolution_m && *resolution <= kMaxResolution_m)) {
+    if (!is_valid_resolution(*resolution)) {
       fields.error(fields.line_of("resolution"),
                    fmt::format("resolution {} m per pixel is out of limits", *resolution),
                    fmt::format("it is within {} to {}", kMinResolution_m, kMaxResolution_m));
@@ -195,6 +224,13 @@ void read_raster(MapFile& file, YamlFields& fields) {
 void read_geometry_kind(MapFile& file, YamlFields& fields) {
   file.labels = read_text(fields, "labels", Need::kOptional, {});
   file.mesh = read_text(fields, "mesh", Need::kOptional, {});
+  if (file.labels.line > 0 && !stays_inside(fields, "labels", file.labels.text)) {
+    file.labels.text.clear();
+  }
+  if (file.mesh.line > 0 && !stays_inside(fields, "mesh", file.mesh.text)) file.mesh.text.clear();
+  const bool refused = fields.line_of("labels") > 0 || fields.misspelt("labels") ||
+                       fields.line_of("mesh") > 0 || fields.misspelt("mesh");
+  if (file.labels.line == 0 && file.mesh.line == 0 && refused) return;
   if ((file.labels.line > 0) == (file.mesh.line > 0)) {
     fields.error(
         fields.line(),
@@ -237,9 +273,15 @@ std::optional<MapFile> read_map_file(const Path& path, MapReport& report) {
   MapFile file;
   file.path = path;
   YamlFields fields(*block, path, report);
+  const auto expect_keys = [&] {
+    fields.expect_keys(
+        {"format", "id", "name", "labels", "mesh", "ceiling", "ground", "outside", "classes"});
+  };
+  // Of a newer format the keys are not known; but one that is missing may be misspelt.
+  const bool has_format = block->find("format").has_value();
+  if (!has_format) expect_keys();
   if (!read_format(fields, file, report)) return std::nullopt;
-  fields.expect_keys(
-      {"format", "id", "name", "labels", "mesh", "ceiling", "ground", "outside", "classes"});
+  if (has_format) expect_keys();
   read_identity(file, fields);
   read_geometry_kind(file, fields);
   const Need drawn = file.is_mesh() ? Need::kOptional : Need::kRequired;
@@ -248,8 +290,11 @@ std::optional<MapFile> read_map_file(const Path& path, MapReport& report) {
   file.ceiling = read_level(fields, "ceiling", Need::kOptional, Need::kRequired, file, report);
   if (const auto outside = fields.node("outside", Need::kOptional)) {
     file.outside_line = outside->line();
-    file.outside = read_color(fields, *outside).value_or(Rgb{});
+    const std::optional<Rgb> color = read_color(fields, *outside);
+    file.outside = color.value_or(Rgb{});
+    file.all_coloured = file.all_coloured && color;
   }
+  file.all_coloured = file.all_coloured && !fields.misspelt("outside");
   read_classes(file, fields, report);
   return file;
 }

@@ -17,7 +17,8 @@ namespace semview::map::detail {
 /// The newest `format` that this reader knows.
 inline constexpr int kMapFormat = 1;
 
-/// A text value and the line it stands in; line 0: absent.
+/// A text value and the line it stands in; line 0: absent. The text of a file name that the report
+/// refuses is empty.
 struct TextField {
   std::string text;
   int line = 0;
@@ -27,6 +28,7 @@ struct TextField {
 struct LevelField {
   TextField class_name;
   double height_m = 0.0;
+  bool has_height = false;
   int line = 0;
 };
 
@@ -34,6 +36,7 @@ struct LevelField {
 struct ClassField {
   MapClass value;
   bool has_heights = false;
+  bool heights_refused = false;  ///< the report says already why there are none
   int line = 0;
   int color_line = 0;
   int height_line = 0;
@@ -56,6 +59,10 @@ struct MapFile {
   int outside_line = 0;                ///< 0: absent, black
   std::filesystem::path classes_path;  ///< the file that holds the list, `path` itself mostly
   std::vector<ClassField> classes;
+  // False if the report says already why: what follows from it is not reported again.
+  bool has_classes = false;
+  bool all_named = true;
+  bool all_coloured = true;
 
   bool is_mesh() const { return mesh.line > 0; }
 };

@@ -9,6 +9,9 @@ namespace semview::map {
 
 inline constexpr double kMinResolution_m = 0.001;  ///< a pixel's edge
 inline constexpr double kMaxResolution_m = 1.0;
+inline bool is_valid_resolution(double resolution_m) {
+  return resolution_m >= kMinResolution_m && resolution_m <= kMaxResolution_m;
+}
 /// Within the grid's own limit with room for the largest image.
 inline constexpr double kMaxOrigin_m = 900'000.0;
 /// Cells of the 10 cm grid under a map: 1 km². Images have limits of their own, see io/png.hpp.

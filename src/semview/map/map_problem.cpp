@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -74,6 +76,18 @@ std::size_t MapReport::count(Severity severity) const {
       std::count_if(problems.begin(), problems.end(), [severity](const MapProblem& problem) {
         return problem.severity == severity;
       }));
+}
+
+void sort_by_place(MapReport& report) {
+  const auto place = [](const MapProblem& problem) {
+    constexpr int kLast = std::numeric_limits<int>::max();
+    const bool whole = problem.line == 0 && !problem.pixel;
+    const PixelIndex pixel = problem.pixel.value_or(PixelIndex{});
+    return std::tuple(problem.file, whole ? kLast : problem.line, pixel.row, pixel.column);
+  };
+  std::stable_sort(report.problems.begin(),
+                   report.problems.end(),
+                   [&](const MapProblem& a, const MapProblem& b) { return place(a) < place(b); });
 }
 
 Error first_error(const MapReport& report) {

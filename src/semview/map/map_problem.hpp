@@ -48,13 +48,17 @@ MapProblem line_problem(Severity severity,
 /// problem's own.
 MapProblem problem_of(const std::filesystem::path& file, const Error& error);
 
-/// Everything found, in the order in which the files are read.
+/// Everything found; `sort_by_place` gives it an order to read.
 struct MapReport {
   std::vector<MapProblem> problems;
 
   bool has_errors() const { return count(Severity::kError) > 0; }
   std::size_t count(Severity severity) const;
 };
+
+/// By file, then line, then pixel row and column; what concerns a whole file comes after its
+/// places.
+void sort_by_place(MapReport& report);
 
 /// The first error of a report that has one, as a value to return.
 Error first_error(const MapReport& report);

@@ -41,6 +41,7 @@ SemanticMap map_of(const MapFile& file) {
 }
 
 void check_size(const MapFile& file, const Path& labels, io::PngSize size, MapReport& report) {
+  if (!is_valid_resolution(file.resolution_m)) return;  // said already
   const double cell_m = PoseGrid::kCellSize_m;
   const double width_m = size.columns * file.resolution_m;
   const double height_m = size.rows * file.resolution_m;
@@ -124,10 +125,12 @@ std::optional<RgbImage> read_labels(const MapFile& file, const Path& path, MapRe
 std::optional<ColumnMap> read_columns(const MapFile& file,
                                       const LoadOptions& options,
                                       MapReport& report) {
-  if (file.labels.line == 0) return std::nullopt;
+  if (file.labels.text.empty()) return std::nullopt;
   const Path path = file.path.parent_path() / file.labels.text;
   const std::optional<RgbImage> labels = read_labels(file, path, report);
-  if (!labels || file.classes.size() > static_cast<std::size_t>(kMaxClasses)) return std::nullopt;
+  const bool complete = file.has_classes && file.all_coloured &&
+                        file.classes.size() <= static_cast<std::size_t>(kMaxClasses);
+  if (!labels || !complete) return std::nullopt;
   const Palette palette = palette_of(file);
   std::optional<Image<std::uint8_t>> pixels =
       match_colors(*labels, palette.entries, options.nearest_colour, path, report);
@@ -137,8 +140,8 @@ std::optional<ColumnMap> read_columns(const MapFile& file,
   for (const std::uint8_t index : pixels->pixels()) seen[index] = true;
   std::vector<bool> drawn(file.classes.size(), false);
   for (std::size_t i = 1; i < seen.size(); ++i) drawn[palette.ids[i] - 1U] = seen[i];
-  check_unused(file, drawn, report);
   if (report.has_errors()) return std::nullopt;
+  check_unused(file, drawn, report);
 
   const SemanticMap map = map_of(file);
   const Storey storey = storey_of(file, map.classes);
@@ -161,7 +164,7 @@ std::optional<SemanticMap> read_bundle(const Path& path,
                                        MapReport& report) {
   const std::optional<MapFile> file = read_map_file(path, report);
   if (!file) return std::nullopt;
-  check_classes(*file, report);
+  if (file->has_classes) check_classes(*file, report);
   SemanticMap map;
   if (file->is_mesh()) {
     std::optional<MeshGeometry> mesh = read_mesh(*file, report);
@@ -172,6 +175,7 @@ std::optional<SemanticMap> read_bundle(const Path& path,
     std::optional<ColumnMap> columns = read_columns(*file, options, report);
     if (!columns) return std::nullopt;
     map = map_of(*file);
+    map.drawing = file->path.parent_path() / file->labels.text;
     map.geometry = *std::move(columns);
   }
   if (report.has_errors()) return std::nullopt;

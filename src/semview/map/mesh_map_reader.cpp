@@ -30,6 +30,7 @@ std::string id_of(const Path& file) {
 }  // namespace
 
 std::optional<MeshGeometry> read_mesh(const MapFile& file, MapReport& report) {
+  if (file.mesh.text.empty()) return std::nullopt;
   const Path path = file.path.parent_path() / file.mesh.text;
   Result<LabelledMesh> labelled = read_glb(path);
   if (!labelled) {
@@ -43,8 +44,8 @@ std::optional<MeshGeometry> read_mesh(const MapFile& file, MapReport& report) {
     drawn.push_back(std::binary_search(
         labelled->class_names.begin(), labelled->class_names.end(), field.value.name));
   }
-  check_unused(file, drawn, report);
   if (report.has_errors()) return std::nullopt;
+  check_unused(file, drawn, report);
   Result<TriangleMesh> mesh = relabel(*std::move(labelled), ClassTable(std::move(names)));
   if (!mesh) {
     report.problems.push_back(problem_of(path, mesh.error()));

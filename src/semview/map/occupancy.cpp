@@ -6,9 +6,6 @@
 namespace semview::map {
 namespace {
 
-constexpr std::uint8_t kFree = 254;
-constexpr std::uint8_t kOccupied = 0;
-constexpr std::uint8_t kUnexplored = 205;
 constexpr double kStepHeight_m = 0.05;
 
 }  // namespace
@@ -19,7 +16,7 @@ Image<std::uint8_t> occupancy_image(const ColumnMap& map, double height_m) {
     const bool blocked =
         !profile.passable &&
         profile.reaches_into(map.ground_height_m + kStepHeight_m, map.ground_height_m + height_m);
-    grey.push_back(profile.outside ? kUnexplored : blocked ? kOccupied : kFree);
+    grey.push_back(profile.outside ? kUnknownGrey : blocked ? kOccupiedGrey : kFreeGrey);
   }
   Image<std::uint8_t> image(map.rows(), map.columns());
   for (int row = 0; row < map.rows(); ++row) {

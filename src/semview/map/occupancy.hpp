@@ -9,7 +9,12 @@
 
 namespace semview::map {
 
-/// Grey values of a map_server image with `negate: 0`: 254 free, 0 occupied, 205 unknown (outside).
+// Grey values of a map_server image with `negate: 0`.
+inline constexpr std::uint8_t kFreeGrey = 254;
+inline constexpr std::uint8_t kOccupiedGrey = 0;
+inline constexpr std::uint8_t kUnknownGrey = 205;
+
+/// The plan for map_server: free, occupied, unknown where it is outside.
 /// Occupied is what a robot of that height would hit: a slab that reaches into (ground + 0.05 m,
 /// ground + height_m); passable columns are free.
 Image<std::uint8_t> occupancy_image(const ColumnMap& map, double height_m = 1.2);

@@ -15,7 +15,8 @@ struct RosImportConfig {
 /// Reads a map_server YAML (modes trinary, scale and raw) with its PGM or PNG and writes a bundle
 /// into `directory`: occupied cells become wall, free ones floor, unknown ones outside.
 /// docs/formats/map_bundle.md#importing-ros-maps says which is which.
-/// @errors kNotFound, kInvalidArgument, kOutOfRange, kDataLoss: the map; kAlreadyExists: `directory` holds a map already.
+/// @errors kNotFound, kInvalidArgument, kOutOfRange, kDataLoss: the map; kAlreadyExists:
+/// `directory` holds a map already.
 Status import_ros_map(const std::filesystem::path& map_yaml,
                       const std::filesystem::path& directory,
                       const RosImportConfig& config = {});

@@ -72,7 +72,7 @@ Result<Reading> read_reading(const io::YamlNode& map) {
 Result<double> read_resolution(const io::YamlNode& map) {
   SEMVIEW_TRY(const io::YamlNode node, map.at("resolution"));
   SEMVIEW_TRY(const double resolution_m, node.number());
-  if (resolution_m >= kMinResolution_m && resolution_m <= kMaxResolution_m) return resolution_m;
+  if (is_valid_resolution(resolution_m)) return resolution_m;
   return node.error(fmt::format("resolution {} m per pixel is not in {}..{}",
                                 resolution_m,
                                 kMinResolution_m,

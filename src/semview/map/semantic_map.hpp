@@ -28,6 +28,7 @@ struct SemanticMap {
   std::string id;                   ///< [a-z0-9_-]+
   std::string name;                 ///< for people
   std::filesystem::path directory;  ///< the folder of its file
+  std::filesystem::path drawing;    ///< the picture of a drawn map; of a mesh map empty
   ClassTable classes;
   std::vector<MapClass> class_details;  ///< in the order of `classes`
   double ground_height_m = 0.0;

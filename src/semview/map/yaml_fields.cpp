@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "semview/map/spelling.hpp"
+
 namespace semview::map::detail {
 
 std::optional<io::YamlNode> YamlFields::node(std::string_view key,
@@ -11,7 +13,7 @@ std::optional<io::YamlNode> YamlFields::node(std::string_view key,
                                              std::string_view example) {
   std::optional<io::YamlNode> found = mapping_.find(key);
   if (found && found->is_null()) found.reset();
-  if (!found && need == Need::kRequired) {
+  if (!found && need == Need::kRequired && !misspelt(key)) {
     error(line(),
           fmt::format("{} is missing", key),
           example.empty() ? std::string() : fmt::format("write for example `{}`", example));
@@ -39,10 +41,15 @@ std::optional<bool> YamlFields::boolean(std::string_view key) {
 }
 
 void YamlFields::expect_keys(std::vector<std::string_view> known) {
+  std::vector<std::string_view> absent;
+  for (const std::string_view key : known) {
+    if (!mapping_.find(key)) absent.push_back(key);
+  }
   for (const io::YamlNode::Entry& entry : mapping_.unknown_entries(known)) {
+    if (const auto meant = closest_word(entry.key, absent)) misspelt_.emplace(*meant);
     error(entry.line,
           fmt::format("unknown key {}", entry.key),
-          fmt::format("known here: {}", fmt::join(known, ", ")));
+          did_you_mean(entry.key, absent) + fmt::format("known here: {}", fmt::join(known, ", ")));
   }
 }
 

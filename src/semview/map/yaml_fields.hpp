@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,14 +23,17 @@ class YamlFields {
   YamlFields(io::YamlNode mapping, std::filesystem::path file, MapReport& report)
       : mapping_(std::move(mapping)), file_(std::move(file)), report_(report) {}
 
-  /// The value of `key`; absent and required: an error, with `example` as what would be right.
+  /// The value of `key`; absent and required: an error, with `example` as what would be right,
+  /// unless `expect_keys` has found it misspelt.
   std::optional<io::YamlNode> node(std::string_view key, Need need, std::string_view example = {});
   std::optional<double> number(std::string_view key, Need need, std::string_view example = {});
   std::optional<std::string> text(std::string_view key, Need need, std::string_view example = {});
   std::optional<bool> boolean(std::string_view key);
 
-  /// An error for every key that is not one of `known`.
+  /// An error for every key that is not one of `known`, with the one that was probably meant.
   void expect_keys(std::vector<std::string_view> known);
+  /// True if `expect_keys` has found another key that was probably meant to be `key`.
+  bool misspelt(std::string_view key) const { return misspelt_.contains(key); }
 
   void error(int line, std::string message, std::string remedy = {});
   void warning(int line, std::string message, std::string remedy = {});
@@ -48,6 +53,7 @@ class YamlFields {
   io::YamlNode mapping_;
   std::filesystem::path file_;
   MapReport& report_;
+  std::set<std::string, std::less<>> misspelt_;
 };
 
 }  // namespace semview::map::detail
