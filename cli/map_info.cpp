@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "map_verbs.hpp"
 #include "semview/core/hash.hpp"
+#include "semview/geometry/angle.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/raycast/embree_view_source.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -43,19 +47,46 @@ ordered_json classes_json(const map::SemanticMap& map) {
   return classes;
 }
 
+/// What the map takes up of frame `map`, metres; a plan reaches to its ceiling or highest slab.
+struct Box {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+};
+
+Box box_of(const map::SemanticMap& map) {
+  if (const map::ColumnMap* columns = map.columns()) {
+    const map::Bounds bounds = columns->bounds();
+    double top_m = map.ground_height_m;
+    for (const ColumnProfile& profile : columns->profiles) {
+      if (!profile.slabs.empty()) top_m = std::max(top_m, profile.slabs.back().z_max_m);
+    }
+    if (map.ceiling) top_m = map.ceiling->height_m;
+    return {{bounds.min_x_m, bounds.min_y_m, map.ground_height_m},
+            {bounds.max_x_m, bounds.max_y_m, top_m}};
+  }
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : map.mesh()->mesh.vertices) box.extend(vertex);
+  return {box.min().cast<double>(), box.max().cast<double>()};
+}
+
+ordered_json numbers_json(const Eigen::Vector3d& point) {
+  return {point.x(), point.y(), point.z()};
+}
+
 ordered_json info_json(const map::SemanticMap& map, const map::CellGrid& grid) {
   ordered_json info{{"id", map.id},
                     {"name", map.name},
                     {"fingerprint", to_hex(map.fingerprint)},
                     {"kind", map.columns() != nullptr ? "plan" : "mesh"},
-                    {"engine", "embree"},
+                    {"engine", raycast::kEngineName},
                     {"ground_height_m", map.ground_height_m}};
   if (map.ceiling) info["ceiling_height_m"] = map.ceiling->height_m;
+  const Box box = box_of(map);
+  info["size_m"] = numbers_json(box.high - box.low);
+  info["bounds_m"] = {{"min", numbers_json(box.low)}, {"max", numbers_json(box.high)}};
   if (const map::ColumnMap* columns = map.columns()) {
     info["pixels"] = {columns->columns(), columns->rows()};
     info["resolution_m"] = columns->resolution_m;
-    info["size_m"] = {columns->columns() * columns->resolution_m,
-                      columns->rows() * columns->resolution_m};
     info["origin"] = {columns->origin.x_m, columns->origin.y_m, columns->origin.yaw_rad};
   } else if (const map::MeshGeometry* mesh = map.mesh()) {
     info["vertices"] = mesh->mesh.vertices.size();
@@ -67,13 +98,9 @@ ordered_json info_json(const map::SemanticMap& map, const map::CellGrid& grid) {
   return info;
 }
 
-void print_text(const ordered_json& info) {
-  for (const auto& [key, value] : info.items()) {
-    if (key == "classes") continue;
-    fmt::print("{:<17} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-  }
+void print_classes(const map::SemanticMap& map) {
   fmt::print("classes\n");
-  for (const ordered_json& entry : info["classes"]) {
+  for (const ordered_json& entry : classes_json(map)) {
     fmt::print("{:>5}  {:<16}", entry["id"].get<int>(), entry["name"].get<std::string>());
     if (entry.contains("min_height_m")) {
       fmt::print(" {:g}..{:g} m",
@@ -88,14 +115,60 @@ void print_text(const ordered_json& info) {
   }
 }
 
+void print_text(const map::SemanticMap& map, const map::CellGrid& grid) {
+  const auto line = [](const char* key, const std::string& value) {
+    fmt::print("{:<12} {}\n", key, value);
+  };
+  line("id", map.id);
+  line("name", map.name);
+  line("fingerprint", to_hex(map.fingerprint));
+  line("engine", fmt::format("{} (it serves every map)", raycast::kEngineName));
+  if (const map::ColumnMap* columns = map.columns()) {
+    line("plan",
+         fmt::format("{} x {} pixels of {:g} m",
+                     columns->columns(),
+                     columns->rows(),
+                     columns->resolution_m));
+    line("origin",
+         fmt::format("({:g}, {:g}) m, {:g} degrees",
+                     columns->origin.x_m,
+                     columns->origin.y_m,
+                     deg_from_rad(columns->origin.yaw_rad)));
+  } else {
+    const map::TriangleMesh& mesh = map.mesh()->mesh;
+    line("mesh",
+         fmt::format("{} triangles, {} vertices", mesh.triangles.size(), mesh.vertices.size()));
+  }
+  const Box box = box_of(map);
+  const Eigen::Vector3d size_m = box.high - box.low;
+  line(
+      "size",
+      fmt::format(
+          "{:.2f} x {:.2f} x {:.2f} m (width, depth, height)", size_m.x(), size_m.y(), size_m.z()));
+  line("bounds",
+       fmt::format("x {:.2f} to {:.2f}, y {:.2f} to {:.2f}, z {:.2f} to {:.2f} m",
+                   box.low.x(),
+                   box.high.x(),
+                   box.low.y(),
+                   box.high.y(),
+                   box.low.z(),
+                   box.high.z()));
+  line("ground", fmt::format("{:g} m", map.ground_height_m));
+  line("ceiling", map.ceiling ? fmt::format("{:g} m", map.ceiling->height_m) : "open top");
+  const std::size_t parts = grid.components().size();
+  line("free cells",
+       fmt::format("{} of 10 cm, in {} part{}", grid.free_count(), parts, parts == 1 ? "" : "s"));
+  print_classes(map);
+}
+
 Status show(const Options& options) {
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
   SEMVIEW_TRY(const map::CellGrid grid, cell_grid_of(map, options.eye_height_m));
-  const ordered_json info = info_json(map, grid);
   if (options.json) {
+    const ordered_json info = info_json(map, grid);
     fmt::print("{}\n", info.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    print_text(info);
+    print_text(map, grid);
   }
   return {};
 }

@@ -10,6 +10,7 @@
 #include "semview/io/png.hpp"
 #include "semview/map/occupancy.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/picture/class_plan_picture.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -33,9 +34,18 @@ Result<map::SemanticMap> load_drawn(const Options& options) {
 
 Status preview(const Options& options) {
   SEMVIEW_TRY(const map::SemanticMap map, load_drawn(options));
-  SEMVIEW_TRY_STATUS(io::write_png(options.output, plan_image(map, *map.columns())));
-  fmt::print(
-      "{}: {} x {} pixels\n", options.output, map.columns()->columns(), map.columns()->rows());
+  const map::ColumnMap& columns = *map.columns();
+  picture::ClassPlanPicture drawing;
+  drawing.title = map.name;
+  drawing.plan = {plan_image(map, columns), columns.resolution_m, columns.origin};
+  for (const map::MapClass& details : map.class_details) {
+    if (details.color) drawing.classes.push_back({*details.color, details.name});
+  }
+  SEMVIEW_TRY_STATUS(io::write_png(options.output, draw_class_plan(drawing)));
+  fmt::print("{}: a plan of {:.1f} x {:.1f} m\n",
+             options.output,
+             columns.columns() * columns.resolution_m,
+             columns.rows() * columns.resolution_m);
   return {};
 }
 
@@ -59,7 +69,9 @@ void add_common(CLI::App& verb, Options& options) {
 
 void add_map_pictures(CLI::App& map, int& exit_code) {
   CLI::App* preview_verb = map.add_subcommand(
-      "preview", "Draw a plan in its classes' colours as semview reads it, outside in white.");
+      "preview",
+      "Draw a plan in its classes' colours as semview reads it, outside in white, with a legend, "
+      "metres along the edges and a scale bar.");
   const auto preview_options = std::make_shared<Options>();
   add_common(*preview_verb, *preview_options);
   preview_verb->add_option("-o,--output", preview_options->output, "PNG to write")->required();

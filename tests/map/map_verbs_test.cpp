@@ -90,13 +90,33 @@ TEST_F(MapVerbsTest, InfoOfAMeshMapCountsFreeCells) {
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const json info = json::parse(run.output);
   EXPECT_EQ(info["kind"], "mesh");
+  EXPECT_EQ(info["engine"], "embree");
+  // The storeys' floors are 3.1 m apart, and the house is two of them high.
+  EXPECT_GT(info["size_m"][2].get<double>(), 5.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(
+        info["size_m"][axis].get<double>(),
+        info["bounds_m"]["max"][axis].get<double>() - info["bounds_m"]["min"][axis].get<double>(),
+        1e-9);
+  }
   EXPECT_GT(info["free_cells"].get<int>(), 5000);
+}
+
+TEST_F(MapVerbsTest, InfoIsReadableForPeople) {
+  write_bundle(folder_ / "map", room());
+  const Outcome run = semview_map("info " + at("map"));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.output, HasSubstr("12 x 10 pixels of 0.1 m"));
+  EXPECT_THAT(run.output, HasSubstr("1.20 x 1.00 x 2.60 m (width, depth, height)"));
+  EXPECT_THAT(run.output, HasSubstr("x -1.00 to 0.20, y 2.00 to 3.00, z 0.00 to 2.60 m"));
 }
 
 TEST_F(MapVerbsTest, PreviewAndOccupancyWritePictures) {
   write_bundle(folder_ / "map", room());
   ASSERT_EQ(semview_map("preview " + at("map") + " -o " + at("plan.png")).exit_code, 0);
-  EXPECT_TRUE(io::read_png_rgb(folder_ / "plan.png"));
+  const auto plan = io::read_png_rgb(folder_ / "plan.png");
+  ASSERT_TRUE(plan);
+  EXPECT_GT(plan->columns(), 600) << "enlarged, with a legend";
   ASSERT_EQ(semview_map("occupancy " + at("map")).exit_code, 0);
   EXPECT_TRUE(io::read_png_grey(folder_ / "map" / "occupancy.png"));
   const Outcome nowhere = semview_map("preview " + at("nothing") + " -o " + at("x.png"));

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "semview/picture/class_plan_picture.hpp"
 #include "semview/picture/colour_map.hpp"
 #include "semview/picture/heat_picture.hpp"
 #include "semview/picture/track_picture.hpp"
@@ -46,6 +47,35 @@ Plan marked_plan(const Pose2& origin) {
   Plan plan{RgbImage(10, 10, {240, 240, 240}), 1.0, origin};
   plan.image.at(8, 8) = kMark;
   return plan;
+}
+
+TEST(ClassPlanPictureTest, TheLegendListsTheClassesThatOccur) {
+  ClassPlanPicture picture{marked_plan({}), {}};
+  const int without = draw_class_plan(picture).rows();
+  picture.classes = {{kMark, "lamp"}};
+  const RgbImage drawn = draw_class_plan(picture);
+  const RgbImage absent = draw_class_plan({marked_plan({}), {{{1, 2, 3}, "lamp"}}});
+  // The marked pixel, 1 % of the plan, and its square in the legend under it.
+  EXPECT_GT(std::ranges::count(drawn.pixels(), kMark), std::ranges::count(absent.pixels(), kMark));
+  EXPECT_EQ(absent.rows(), without) << "no line for a class that does not occur";
+  EXPECT_EQ(std::ranges::count(absent.pixels(), Rgb{1, 2, 3}), 0);
+}
+
+TEST(ClassPlanPictureTest, AScaleBarInWholeMetresStandsUnderThePlan) {
+  const RgbImage drawn = draw_class_plan({marked_plan({}), {}});
+  // 10 m wide: the bar is 2 m long, a fifth of the plan's width.
+  std::ptrdiff_t plan_width = 0;
+  int plan_end = 0;
+  std::ptrdiff_t bar = 0;
+  for (int row = 0; row < drawn.rows(); ++row) {
+    const std::ptrdiff_t plan = std::ranges::count(drawn.row(row), Rgb{240, 240, 240});
+    if (plan > 0) plan_end = row;
+    plan_width = std::max(plan_width, plan);
+    // Past the plan's outline and the marks of the metres along it.
+    if (plan_end == 0 || row <= plan_end + 10) continue;
+    bar = std::max(bar, std::ranges::count(drawn.row(row), Rgb{38, 42, 48}));
+  }
+  EXPECT_NEAR(static_cast<double>(bar), static_cast<double>(plan_width) / 5.0, 4.0);
 }
 
 TEST(TrackPictureTest, ThePlanStandsUprightWithLowYBelow) {

@@ -12,6 +12,7 @@
 #include "semview/geometry/angle.hpp"
 #include "semview/picture/canvas.hpp"
 #include "semview/picture/colour_map.hpp"
+#include "semview/picture/legend.hpp"
 
 namespace semview::picture {
 namespace {
@@ -82,14 +83,6 @@ void draw_frame(cairo_t* cr,
   if (options.axes) draw_axes(cr, layout, *options.axes);
 }
 
-struct LegendItem {
-  Rgb colour;
-  std::string name;
-  std::string share;
-  double x = 0.0;
-  double y = 0.0;
-};
-
 std::string share_text(std::int64_t count, std::size_t total) {
   const double percent = 100.0 * static_cast<double>(count) / static_cast<double>(total);
   return percent < 0.1 ? "<0.1 %" : fmt::format("{:.{}f} %", percent, percent < 10.0 ? 1 : 0);
@@ -113,41 +106,6 @@ std::vector<LegendItem> legend_of(const LabelImage& labels,
     items.push_back({palette[label], name, share_text(counts[label], labels.pixels().size())});
   }
   return items;
-}
-
-/// Sets the items in lines that fit `width`; returns their height.
-double arrange(std::vector<LegendItem>& items, double width) {
-  double x = 0.0;
-  double y = 0.0;
-  for (LegendItem& item : items) {
-    const double item_width =
-        24.0 + text_width(item.name, kTextSize) + 6.0 + text_width(item.share, kSmallTextSize);
-    if (x > 0.0 && x + item_width > width) {
-      x = 0.0;
-      y += 26.0;
-    }
-    item.x = x;
-    item.y = y;
-    x += item_width + 26.0;
-  }
-  return y + 20.0;
-}
-
-void draw_legend(cairo_t* cr, const std::vector<LegendItem>& items, double x, double y) {
-  for (const LegendItem& item : items) {
-    set_colour(cr, item.colour);
-    fill_rectangle(cr, x + item.x, y + item.y, 16.0, 16.0);
-    set_colour(cr, kInk, 0.55);
-    outline_rectangle(cr, x + item.x, y + item.y, 16.0, 16.0);
-    set_colour(cr, kInk);
-    draw_text(cr, x + item.x + 24.0, y + item.y + 13.0, item.name, kTextSize);
-    set_colour(cr, kFaintInk);
-    draw_text(cr,
-              x + item.x + 24.0 + text_width(item.name, kTextSize) + 6.0,
-              y + item.y + 13.0,
-              item.share,
-              kSmallTextSize);
-  }
 }
 
 }  // namespace
