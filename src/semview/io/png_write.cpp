@@ -2,10 +2,10 @@
 #include <bit>
 #include <cerrno>
 #include <csetjmp>
-#include <cstring>
 
 #include <fmt/format.h>
 
+#include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/png_library.hpp"
 
@@ -27,9 +27,15 @@ class Writer {
   bool step_header(png_uint_32 rows, png_uint_32 columns, int bit_depth, int colour_type);
   bool step_row(png_const_bytep samples);
   bool step_end();
-  tl::unexpected<Error> cannot_write(const char* why) const {
-    return fail(ErrorCode::kUnavailable,
-                fmt::format("{}: cannot be written: {}", path_.string(), why));
+  /// The error of the last step, which was not libpng's own: its images are sound. What has been
+  /// written is removed.
+  tl::unexpected<Error> cannot_write(int error_number) {
+    file_.reset();
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path_, ignored)) {
+      std::filesystem::remove(path_, ignored);
+    }
+    return io::cannot_write(path_, error_number);
   }
 
   std::filesystem::path path_;
@@ -79,7 +85,7 @@ Status Writer::write(const Image<T>& image, int bit_depth, int colour_type) {
                             image.columns(),
                             image.rows()));
   }
-  if (!file_) return cannot_write(std::strerror(errno));
+  if (!file_) return io::cannot_write(path_, errno);
   png_ = png_create_write_struct(
       PNG_LIBPNG_VER_STRING, &message_, detail::on_png_error, detail::on_png_warning);
   info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
@@ -88,15 +94,15 @@ Status Writer::write(const Image<T>& image, int bit_depth, int colour_type) {
                    static_cast<png_uint_32>(image.columns()),
                    bit_depth,
                    colour_type)) {
-    return cannot_write(message_.data());
+    return cannot_write(errno);
   }
   for (int row = 0; row < image.rows(); ++row) {
     if (!step_row(reinterpret_cast<png_const_bytep>(image.row(row).data()))) {
-      return cannot_write(message_.data());
+      return cannot_write(errno);
     }
   }
-  if (!step_end()) return cannot_write(message_.data());
-  if (std::fclose(file_.release()) != 0) return cannot_write(std::strerror(errno));
+  if (!step_end()) return cannot_write(errno);
+  if (std::fclose(file_.release()) != 0) return cannot_write(errno);
   return {};
 }
 

@@ -90,6 +90,17 @@ Result<std::vector<FrameFiles>> read_frames(const std::filesystem::path& path) {
 }  // namespace
 
 Result<RunLog> read_run_log(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(directory / "log.yaml", ignored)) {
+    const bool there = std::filesystem::is_directory(directory, ignored);
+    return fail(Error{ErrorCode::kNotFound,
+                      fmt::format("{}: {}, expected a run log",
+                                  directory.string(),
+                                  there ? "has no log.yaml" : "is no folder"),
+                      {},
+                      "a run log is a folder with log.yaml, frames.csv and odometry.txt; `semview "
+                      "simulate` writes one"});
+  }
   RunLog log;
   log.directory = directory;
   SEMVIEW_TRY(const YamlNode document, read_yaml(directory / "log.yaml"));
@@ -98,7 +109,6 @@ Result<RunLog> read_run_log(const std::filesystem::path& directory) {
   SEMVIEW_TRY(log.setup, parse_observation_setup(document));
   SEMVIEW_TRY(log.frames, read_frames(directory / "frames.csv"));
   SEMVIEW_TRY(log.odometry, read_tum(directory / "odometry.txt"));
-  std::error_code ignored;
   if (std::filesystem::exists(directory / "groundtruth.txt", ignored)) {
     SEMVIEW_TRY(log.groundtruth, read_tum(directory / "groundtruth.txt"));
   }

@@ -2,11 +2,14 @@
 #include "semview/io/text_file.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
+
+#include "semview/io/output_path.hpp"
 
 namespace semview::io {
 
@@ -39,21 +42,22 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::size_
 }
 
 Status write_text_file(const std::filesystem::path& path, std::string_view text) {
-  const auto cannot_write = [&](const std::string& why) {
-    return fail(ErrorCode::kUnavailable,
-                fmt::format("{}: cannot be written: {}", path.string(), why));
-  };
-  std::filesystem::path part = path;
-  part += ".part";
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  if (!file) return cannot_write(std::strerror(errno));
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) return cannot_write(std::strerror(errno));
   std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) return cannot_write(error.message());
-  return {};
+  const std::filesystem::file_status there = std::filesystem::status(path, error);
+  // A pipe or a device is written to, not replaced.
+  const bool replace = !std::filesystem::exists(there) || std::filesystem::is_regular_file(there);
+  std::filesystem::path part = path;
+  if (replace) part += ".part";
+  std::FILE* const file = std::fopen(part.c_str(), "wb");
+  if (file == nullptr) return cannot_write(path, errno);
+  int failure = std::fwrite(text.data(), 1, text.size(), file) == text.size() ? 0 : errno;
+  if (std::fclose(file) != 0 && failure == 0) failure = errno;
+  if (!replace) return failure == 0 ? Status() : cannot_write(path, failure);
+  if (failure == 0) std::filesystem::rename(part, path, error);
+  if (failure == 0 && !error) return {};
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  return cannot_write(path, failure != 0 ? failure : error.value());
 }
 
 }  // namespace semview::io

@@ -15,7 +15,7 @@ namespace semview::io {
 /// @errors kNotFound: cannot be opened or read; kOutOfRange: larger than `max_bytes`.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t max_bytes);
 
-/// Replaces a file by `text`; a reader never sees half of it.
+/// Replaces a file by `text`; a reader never sees half of it, and none is left if it fails.
 /// @errors kUnavailable: cannot be written.
 Status write_text_file(const std::filesystem::path& path, std::string_view text);
 

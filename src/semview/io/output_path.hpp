@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Places to write to, looked at before the work whose result goes there.
+#pragma once
+
+#include <filesystem>
+
+#include "semview/core/result.hpp"
+
+namespace semview::io {
+
+/// Whether a file can be written (or replaced) at `path`: its folder is there and writable.
+/// @errors kUnavailable, with what to do in the hint. Writing can still fail later: a disk fills.
+Status check_output_file(const std::filesystem::path& path);
+
+/// The same of a folder that is made, with those above it, if it is not there.
+Status check_output_folder(const std::filesystem::path& path);
+
+/// The error of a failed write: `error_number` is its `errno`.
+tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_number);
+
+}  // namespace semview::io
