@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview evaluate run`.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "plan_backdrop.hpp"
 #include "semview/evaluation/particles_file.hpp"
 #include "semview/evaluation/run_metrics.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/run_log.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -220,7 +222,22 @@ Status check_final(const Options& options, const Evaluation& evaluation) {
   return {};
 }
 
+Status check_limit(const char* option, double limit_m) {
+  if (limit_m > 0.0 && std::isfinite(limit_m)) return {};
+  return fail(
+      Error{ErrorCode::kInvalidArgument,
+            fmt::format("{} {}: expected a finite number of metres above 0", option, limit_m),
+            option});
+}
+
 Status run(const Options& options) {
+  SEMVIEW_TRY_STATUS(check_limit("--converged-within", options.converged_within_m));
+  if (options.final_within_m) {
+    SEMVIEW_TRY_STATUS(check_limit("--final-within", *options.final_within_m));
+  }
+  for (const std::string* file : {&options.svg, &options.png}) {
+    if (!file->empty()) SEMVIEW_TRY_STATUS(io::check_output_file(*file));
+  }
   SEMVIEW_TRY(const Evaluation evaluation, evaluate(options));
   if (options.json) {
     print_json(options, evaluation);
@@ -253,7 +270,6 @@ void add_evaluate_verb(CLI::App& app, int& exit_code) {
   verb->add_option("--particles", options->particles, "Particles (CSV of `localize`) to draw");
   verb->add_option("--title", options->title, "Title of the picture; default: the log's name");
   verb->add_option("--converged-within", options->converged_within_m, "Limit in metres")
-      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb->add_option(
       "--final-within",

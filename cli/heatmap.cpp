@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -15,7 +14,9 @@
 #include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/npy.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
+#include "semview/io/text_file.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/picture/heat_picture.hpp"
@@ -72,14 +73,8 @@ ordered_json describe(const service::Site& site, const similarity::HeatMap& heat
 
 Status write_npy(const std::string& path, const Image<float>& values, const ordered_json& about) {
   SEMVIEW_TRY_STATUS(io::write_npy(path, values));
-  const std::filesystem::path json_path = std::filesystem::path(path).replace_extension(".json");
-  std::ofstream file(json_path);
-  file << about.dump(2) << "\n";
-  file.close();
-  if (!file) {
-    return fail(ErrorCode::kUnavailable, fmt::format("{}: cannot be written", json_path.string()));
-  }
-  return {};
+  return io::write_text_file(std::filesystem::path(path).replace_extension(".json"),
+                             about.dump(2) + "\n");
 }
 
 RgbImage draw(const service::Site& site, const similarity::HeatMap& heat) {
@@ -107,6 +102,8 @@ Status heatmap(const Options& options) {
                   "--headings {}: expected a divisor of {}", options.headings, PoseGrid::kHeadings),
               "--headings"});
   }
+  SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
+  if (!options.npy.empty()) SEMVIEW_TRY_STATUS(io::check_output_file(options.npy));
   SEMVIEW_TRY(const similarity::WeightMatrix weights,
               similarity::read_weight_matrix(options.weights));
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));

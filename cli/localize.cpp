@@ -19,6 +19,7 @@
 #include "localize_options.hpp"
 #include "localize_scorer.hpp"
 #include "semview/core/log.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/io/run_log.hpp"
 #include "semview/io/text_file.hpp"
 #include "verb.hpp"
@@ -94,10 +95,14 @@ void print_summary(const LocalizeOptions& options,
                    const robot::Drive& drive) {
   std::size_t scored = 0;
   std::size_t stale = 0;
+  std::size_t unseen = 0;
+  std::size_t uninformative = 0;
   ViewOrigins origins;
   for (const robot::FrameReport& frame : drive.frames) {
     scored += frame.state == robot::FrameState::kScored ? 1 : 0;
     stale += frame.state == robot::FrameState::kStale ? 1 : 0;
+    unseen += frame.state == robot::FrameState::kUnseen ? 1 : 0;
+    uninformative += frame.state == robot::FrameState::kUninformative ? 1 : 0;
     origins += frame.scores.origins;
   }
   const robot::FrameReport& last = drive.frames.back();
@@ -110,6 +115,8 @@ void print_summary(const LocalizeOptions& options,
         {"frames", drive.frames.size()},
         {"scored", scored},
         {"stale", stale},
+        {"unseen", unseen},
+        {"uninformative", uninformative},
         {"without_odometry", drive.frames_without_odometry},
         {"cells", {{"memory", origins.memory}, {"disk", origins.disk}, {"cast", origins.cast}}},
         {"last",
@@ -124,12 +131,15 @@ void print_summary(const LocalizeOptions& options,
     return;
   }
   fmt::print(
-      "{}: {} frames, {} scored, {} stale; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} m); "
+      "{}: {} frames, {} scored, {} stale{}{}; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} "
+      "m); "
       "cells: {} memory, {} disk, {} cast; weights: {}\n",
       options.output,
       drive.frames.size(),
       scored,
       stale,
+      unseen > 0 ? fmt::format(", {} unseen", unseen) : "",
+      uninformative > 0 ? fmt::format(", {} uninformative", uninformative) : "",
       pose.x_m,
       pose.y_m,
       deg_from_rad(pose.yaw_rad),
@@ -144,6 +154,7 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
   SEMVIEW_TRY_STATUS(check_localize_options(verb, options));
   SEMVIEW_TRY(const robot::LocalizerConfig config, localizer_config(options));
   SEMVIEW_TRY(const auto motion, motion_model(options));
+  SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   SEMVIEW_TRY(const io::RunLog log, io::read_run_log(options.log));
   SEMVIEW_TRY(const Scorer scorer, open_scorer(options, log.setup.classes));
   SEMVIEW_TRY(localization::ParticleSet start, first_particles(options, scorer.free_cells));

@@ -59,8 +59,9 @@ Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options);
 Result<std::shared_ptr<const localization::MotionModel>> motion_model(
     const LocalizeOptions& options);
 
-/// Around --init, or over `free_cells` with --global.
-/// @errors kInvalidArgument: --init is no pose; kFailedPrecondition: no free cell.
+/// Around --init, which must lie near one of `free_cells`, or over them with --global.
+/// @errors kInvalidArgument: --init is no pose or far from the map; kFailedPrecondition: no free
+/// cell.
 Result<localization::ParticleSet> first_particles(const LocalizeOptions& options,
                                                   std::span<const CellIndex> free_cells);
 

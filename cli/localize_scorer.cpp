@@ -66,7 +66,7 @@ Result<Scorer> open_in_process(const LocalizeOptions& options, const ClassTable&
   scorer.weights = std::move(weights.name);
   scorer.source = std::make_unique<similarity::SimilarityScoreSource>(
       scorer.site->views(), map.classes, std::move(weights.matrix), scorer.site->pool());
-  if (options.global) scorer.free_cells = scorer.site->cells().free_cells();
+  scorer.free_cells = scorer.site->cells().free_cells();
   return scorer;
 }
 

@@ -17,7 +17,7 @@ namespace semview::cli {
 struct Scorer {
   std::shared_ptr<service::Site> site;  ///< what `source` stands on; null with a server
   std::unique_ptr<ScoreSource> source;
-  std::vector<CellIndex> free_cells;  ///< for --global only
+  std::vector<CellIndex> free_cells;  ///< where a robot may start
   std::string weights;                ///< where the weights come from, in words
 };
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "map_verbs.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/map/extrusion.hpp"
 #include "semview/map/gltf_write.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -22,6 +23,7 @@ struct Options {
 };
 
 Status export_map(const Options& options) {
+  SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
   const map::TriangleMesh mesh =
       map.columns() != nullptr ? map::extrude(*map.columns()) : map.mesh()->mesh;

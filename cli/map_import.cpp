@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "map_verbs.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/map/plan_import.hpp"
 #include "semview/map/ros_import.hpp"
 #include "verb.hpp"
@@ -19,7 +20,10 @@ struct Options {
   map::RosImportConfig ros;
 };
 
-int finish(const Status& status, const Options& options) {
+template <typename Import>
+int import_into(const Options& options, const Import& import_map) {
+  Status status = io::check_output_folder(options.output);
+  if (status) status = import_map(options);
   if (status) fmt::print("{}: written; `semview map check {}`\n", options.output, options.output);
   return report(status);
 }
@@ -42,9 +46,9 @@ void add_map_import(CLI::App& map, int& exit_code) {
       ->capture_default_str();
   ros->footer("Example: semview map import ros warehouse.yaml -o maps/warehouse");
   ros->callback([ros_options, &exit_code] {
-    exit_code =
-        finish(map::import_ros_map(ros_options->input, ros_options->output, ros_options->ros),
-               *ros_options);
+    exit_code = import_into(*ros_options, [](const Options& options) {
+      return map::import_ros_map(options.input, options.output, options.ros);
+    });
   });
 
   CLI::App* plan = import_verb->add_subcommand(
@@ -57,7 +61,9 @@ void add_map_import(CLI::App& map, int& exit_code) {
   plan->add_option("-o,--output", plan_options->output, "Folder to make")->required();
   plan->footer("Example: semview map import plan plan_level1.yaml -o maps/level1");
   plan->callback([plan_options, &exit_code] {
-    exit_code = finish(map::import_plan(plan_options->input, plan_options->output), *plan_options);
+    exit_code = import_into(*plan_options, [](const Options& options) {
+      return map::import_plan(options.input, options.output);
+    });
   });
 }
 

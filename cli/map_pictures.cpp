@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "map_verbs.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/map/occupancy.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -33,6 +34,7 @@ Result<map::SemanticMap> load_drawn(const Options& options) {
 }
 
 Status preview(const Options& options) {
+  SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   SEMVIEW_TRY(const map::SemanticMap map, load_drawn(options));
   const map::ColumnMap& columns = *map.columns();
   picture::ClassPlanPicture drawing;
@@ -50,6 +52,7 @@ Status preview(const Options& options) {
 }
 
 Status occupancy(const Options& options) {
+  if (!options.output.empty()) SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   SEMVIEW_TRY(const map::SemanticMap map, load_drawn(options));
   const std::string output =
       options.output.empty() ? (map.directory / "occupancy.png").string() : options.output;

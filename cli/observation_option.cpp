@@ -19,8 +19,16 @@ void add_observation_option(CLI::App& verb, ObservationOption& option) {
 }
 
 Result<Observation> read(const ObservationOption& option, const PanoramaCamera& profile) {
-  const bool is_run_log =
-      std::filesystem::exists(std::filesystem::path(option.folder) / "log.yaml");
+  const std::filesystem::path folder(option.folder);
+  std::error_code ignored;
+  const bool is_run_log = std::filesystem::exists(folder / "log.yaml", ignored);
+  if (!is_run_log && !std::filesystem::exists(folder / "observation.yaml", ignored)) {
+    return fail(Error{ErrorCode::kNotFound,
+                      fmt::format("{}: has neither observation.yaml nor log.yaml, expected an "
+                                  "observation folder or a run log",
+                                  option.folder),
+                      "--obs"});
+  }
   if (!option.frame && !is_run_log) return io::read_observation(option.folder, profile);
   SEMVIEW_TRY(const io::RunLog log, io::read_run_log(option.folder));
   if (!option.frame || *option.frame >= log.frames.size()) {

@@ -2,6 +2,7 @@
 #include "semview/service/precompute.hpp"
 
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stop_token>
@@ -54,6 +55,9 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 nlohmann::json to_json(const char* event, const service::PrecomputeProgress& progress) {
+  // Nothing cast yet, nothing known.
+  const bool known = progress.cast > 0 || progress.found == progress.cells;
+  const nlohmann::json remaining = known ? nlohmann::json(progress.remaining_s) : nullptr;
   return {{"event", event},
           {"cells", progress.cells},
           {"found", progress.found},
@@ -61,7 +65,7 @@ nlohmann::json to_json(const char* event, const service::PrecomputeProgress& pro
           {"record_bytes", progress.bytes},
           {"elapsed_s", progress.elapsed_s},
           {"views_per_s", progress.views_per_s},
-          {"remaining_s", progress.remaining_s}};
+          {"remaining_s", remaining}};
 }
 
 /// Shows progress: one line that is written over on a terminal, else a JSON line at most every
@@ -176,7 +180,12 @@ Result<int> run(const Options& options) {
                       "name one: --cache DIR"});
   }
   SEMVIEW_TRY(const service::PrecomputeRegion region, read_region(options));
-  SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
+  SiteOptions site_options = options.site;
+  std::error_code ignored;
+  if (options.dry_run && !std::filesystem::exists(site_options.cache_directory, ignored)) {
+    site_options.cache_directory.clear();  // nothing is stored there, and nothing shall be
+  }
+  SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(site_options));
   SEMVIEW_TRY(const service::PrecomputePlan plan, service::plan_precompute(*site, region));
   if (options.dry_run) {
     SEMVIEW_TRY_STATUS(dry_run(*site, plan, options.json));

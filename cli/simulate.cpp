@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "semview/io/output_path.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/simulation/simulator.hpp"
@@ -37,7 +38,7 @@ Result<map::SemanticMap> load_world(const Options& options, simulation::Simulati
 }
 
 void print_text(const Options& options, const simulation::SimulationReport& run) {
-  fmt::print("{}: {} frames over {:.1f} m in {:.0f} s\n",
+  fmt::print("{}: {} frames over {:.1f} m, {:.0f} s of the robot's time\n",
              options.output,
              run.frames,
              run.way_m,
@@ -83,6 +84,7 @@ Status simulate(const Options& options) {
   config.camera.elevation_min_rad = rad_from_deg(elevation[0]);
   config.camera.elevation_max_rad = rad_from_deg(elevation[1]);
   config.camera.azimuth_width_rad = rad_from_deg(options.field_of_view_deg);
+  SEMVIEW_TRY_STATUS(io::check_output_folder(options.output));
   SEMVIEW_TRY(const map::SemanticMap world, load_world(options, config));
   SEMVIEW_TRY(const simulation::SimulationReport run,
               simulation::simulate(world, config, options.output));

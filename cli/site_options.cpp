@@ -10,6 +10,12 @@
 
 namespace semview::cli {
 
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+}  // namespace
+
 void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
   verb.add_option("map", options.map, "Map: a bundle's folder, its map.yaml, or a .glb")
       ->type_name("MAP")
@@ -31,7 +37,9 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
                   "Store no more than this many bytes (500M, 20G); 0: as far as the disk goes")
       ->type_name("BYTES")
       ->capture_default_str();
-  verb.add_option("--threads", options.threads, "Threads; 0: one a core")->capture_default_str();
+  verb.add_option("--threads", options.threads, "Threads; 0: one a core")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
   verb.add_flag("--nearest-colour",
                 options.nearest_colour,
                 "Take a plan's in-between colours for the nearest class colour");

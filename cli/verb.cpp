@@ -34,10 +34,10 @@ Result<std::vector<double>> parse_numbers(std::string_view option,
     next = complete ? end : stop + 1;
   }
   if (!complete || numbers.size() != count) {
-    return fail(
-        Error{ErrorCode::kInvalidArgument,
-              fmt::format("{} {}: expected {} comma-separated numbers", option, text, count),
-              std::string(option)});
+    return fail(Error{
+        ErrorCode::kInvalidArgument,
+        fmt::format("{} {}: expected {} finite numbers, comma-separated", option, text, count),
+        std::string(option)});
   }
   return numbers;
 }

@@ -14,6 +14,7 @@
 
 #include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/range_png.hpp"
 #include "semview/map/cell_grid.hpp"
@@ -236,6 +237,12 @@ Status write_files(const service::Site& site,
 
 Status show(const Options& options) {
   SEMVIEW_TRY(const Pose2 pose, read_pose(options));
+  for (const std::string* file : {&options.labels_file,
+                                  &options.range_file,
+                                  &options.image_file,
+                                  &options.range_image_file}) {
+    if (!file->empty()) SEMVIEW_TRY_STATUS(io::check_output_file(*file));
+  }
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
   SEMVIEW_TRY(const View view, cast(*site, options, pose));
   SEMVIEW_TRY_STATUS(write_files(*site, options, pose, view));
@@ -260,11 +267,18 @@ void add_view_verb(CLI::App& app, int& exit_code) {
       "taken exactly, not rounded to the grid of cached views.");
   const auto options = std::make_shared<Options>();
   add_site_options(*verb, options->site);
+  // A pose that is taken exactly is none of a cache's cells.
+  for (const char* option : {"--cache", "--cache-limit"}) {
+    verb->remove_option(verb->get_option(option));
+  }
   verb->add_option("--pose", options->pose, "X,Y,YAW_DEG in metres and degrees in frame map")
       ->required();
   verb->add_option("--pinhole",
                    options->pinhole,
-                   "FX,FY,CX,CY,W,H in pixels: a level pinhole camera instead of a panorama");
+                   "FX,FY,CX,CY,W,H in pixels: a level pinhole camera instead of a panorama")
+      ->excludes("--columns")
+      ->excludes("--rows")
+      ->excludes("--elevation");
   verb->add_option("--affine",
                    options->affine,
                    "A,B,K: the plan was drawn as x' = A x, y' = K x + B y of true metres; pose as "

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview weights init` and `semview weights check`.
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -10,6 +9,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "semview/io/output_path.hpp"
+#include "semview/io/text_file.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/vocabulary.hpp"
 #include "semview/similarity/weight_matrix.hpp"
@@ -41,14 +42,6 @@ similarity::Vocabulary map_vocabulary(const map::SemanticMap& map) {
   return classes;
 }
 
-Status write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) return fail(ErrorCode::kUnavailable, fmt::format("{}: cannot be written", path));
-  return {};
-}
-
 void print_unmatched(const similarity::WeightProposal& proposal) {
   if (!proposal.unmatched_map.empty()) {
     fmt::print("no observed class speaks for these map classes, give them weights by hand:\n  {}\n",
@@ -62,6 +55,7 @@ void print_unmatched(const similarity::WeightProposal& proposal) {
 }
 
 Status init(const Options& options) {
+  SEMVIEW_TRY_STATUS(io::check_output_file(options.weights));
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
   SEMVIEW_TRY(const similarity::Vocabulary observed,
               similarity::load_vocabulary(options.vocabulary));
@@ -71,7 +65,7 @@ Status init(const Options& options) {
       fmt::format("# Rows: {}. Columns: map {}. Made by `semview weights init`; edit it freely.\n",
                   std::filesystem::path(options.vocabulary).filename().string(),
                   map.id);
-  SEMVIEW_TRY_STATUS(write_text(options.weights, header + proposal.matrix.to_csv()));
+  SEMVIEW_TRY_STATUS(io::write_text_file(options.weights, header + proposal.matrix.to_csv()));
   if (options.json) {
     fmt::print("{}\n",
                dump({{"weights", options.weights},

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people get wrong on command lines: one line that names the option or file, before any work.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/child_process.hpp"
+#include "support/paths.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace semview {
+namespace {
+
+using semview::testing::ChildProcess;
+using ::testing::HasSubstr;
+using Arguments = std::vector<std::string>;
+
+const std::string kMap = SEMVIEW_SOURCE_DIR "/maps/duplex_level1";
+
+class UsageTest : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  int run(const Arguments& arguments) {
+    ChildProcess process("semview", arguments, folder_ / "streams");
+    const int code = process.wait();
+    output_ = process.output();
+    errors_ = process.errors();
+    return code;
+  }
+
+  /// Expects wrong usage (exit code 2) and `words` on standard error.
+  void expect_usage(const Arguments& arguments, const std::string& words) {
+    EXPECT_EQ(run(arguments), 2) << output_ << errors_;
+    EXPECT_THAT(errors_, HasSubstr(words));
+  }
+
+  /// Expects a failure (exit code 1) and `words` on standard error.
+  void expect_failure(const Arguments& arguments, const std::string& words) {
+    EXPECT_EQ(run(arguments), 1) << output_ << errors_;
+    EXPECT_THAT(errors_, HasSubstr(words));
+  }
+
+  void localize_from(const std::string& init, const std::string& words) {
+    expect_usage(
+        {"localize", "--log", file("log"), "--map", kMap, "--init", init, "-o", file("est.tum")},
+        words);
+  }
+
+  semview::testing::TemporaryFolder folder_;
+  std::string output_;
+  std::string errors_;
+};
+
+TEST_F(UsageTest, AStartThatIsNoneIsRefusedByName) {
+  localize_from("1,-5,nan,0.3", "--init 1,-5,nan,0.3: expected 4 finite numbers");
+  localize_from("1e9,-5,0,0.3", "--init: X 1000000000 or Y -5 is beyond");
+  localize_from("1,-5,0,-1", "--init: SIGMA -1 is not in 0..100 m");
+  localize_from("1,-5,0,1000", "--init: SIGMA 1000 is not in 0..100 m");
+}
+
+TEST_F(UsageTest, AStartFarFromTheMapIsRefusedWithTheMapsExtent) {
+  ASSERT_EQ(run({"simulate", kMap, "--out", file("log"), "--steps", "2"}), 0) << errors_;
+  EXPECT_THAT(output_, HasSubstr("of the robot's time"));
+  localize_from("100,100,0,0.3", "--init: no free space within 0.90 m of (100, 100)");
+  EXPECT_THAT(errors_, HasSubstr("reaches from x 0.1 to 8.8 m and y -18.4 to 0.5 m"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "est.tum"));
+}
+
+TEST_F(UsageTest, NumbersMustBeFinite) {
+  expect_usage({"view", kMap, "--pose", "nan,1,2"}, "--pose nan,1,2: expected 3 finite numbers");
+  expect_usage({"evaluate", "run", "--log", "x", "y.tum", "--final-within", "nan"},
+               "--final-within nan: expected a finite number");
+  expect_usage({"evaluate", "run", "--log", "x", "y.tum", "--converged-within", "-1"},
+               "--converged-within -1: expected a finite number");
+}
+
+TEST_F(UsageTest, OptionsWithoutEffectAreRefused) {
+  const std::string pinhole = "525,525,320,240,640,480";
+  expect_usage({"view", kMap, "--pose", "1,-5,0", "--pinhole", pinhole, "--rows", "9"}, "--rows");
+  expect_usage({"view", kMap, "--pose", "1,-5,0", "--pinhole", pinhole, "--columns", "120"},
+               "--columns");
+  expect_usage({"view", kMap, "--pose", "1,-5,0", "--cache", file("cache")}, "--cache");
+  expect_usage({"view", kMap, "--pose", "1,-5,0", "--threads", "-1"},
+               "--threads: Value -1 not in range");
+}
+
+TEST_F(UsageTest, AnOutputThatCannotBeWrittenIsToldBeforeTheWork) {
+  // The map is not there either: the output is looked at first.
+  const std::string map = file("no_map");
+  const std::string missing = file("missing/out");
+  const std::string words = "cannot be written: the folder " + file("missing") + " is not there";
+  expect_failure({"view", map, "--pose", "0,0,0", "--image", missing}, words);
+  expect_failure({"map", "preview", map, "-o", missing}, words);
+  expect_failure({"map", "occupancy", map, "-o", missing}, words);
+  expect_failure({"map", "export", map, missing}, words);
+  expect_failure({"heatmap", map, "--obs", "o", "--weights", "w.csv", "-o", missing}, words);
+  expect_failure({"evaluate", "run", "--log", "x", "y.tum", "--svg", missing}, words);
+  expect_failure({"localize", "--log", "x", "--map", map, "--global", "-o", missing}, words);
+  expect_failure({"weights", "init", map, "-o", missing}, words);
+  EXPECT_THAT(errors_, HasSubstr("mkdir -p"));
+  const std::string below_a_file = folder_.write("file", "").string() + "/out";
+  expect_failure({"simulate", map, "--out", below_a_file}, "is not a folder");
+  expect_failure({"map", "import", "ros", "x.yaml", "-o", below_a_file}, "is not a folder");
+}
+
+TEST_F(UsageTest, AnEmptyFolderIsNoRunLogAndNoObservation) {
+  std::filesystem::create_directory(folder_ / "empty");
+  expect_failure(
+      {"localize", "--log", file("empty"), "--map", kMap, "--global", "-o", file("est.tum")},
+      "empty: has no log.yaml, expected a run log");
+  const std::string weights = kMap + "/weights.csv";
+  expect_failure({"score", kMap, "--obs", file("empty"), "--weights", weights, "--pose", "1,-5,0"},
+                 "empty: has neither observation.yaml nor log.yaml");
+}
+
+TEST_F(UsageTest, ADryRunMakesNoCacheAndProgressBeginsWithoutAGuess) {
+  const Arguments region{"precompute", kMap, "--cache", file("cache"), "--region", "1,-5,2,-4"};
+  Arguments dry = region;
+  dry.emplace_back("--dry-run");
+  ASSERT_EQ(run(dry), 0) << errors_;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cache"));
+  ASSERT_EQ(run(region), 0) << errors_;
+  EXPECT_THAT(output_.substr(0, output_.find('\n')), HasSubstr("\"remaining_s\":null"));
+}
+
+}  // namespace
+}  // namespace semview
