@@ -41,6 +41,8 @@ Result<WeightProposal> propose_weights(std::span<const NamedClass> observed,
   columns.push_back({std::string(kNoneColumn)});
   std::vector<std::string> observed_names;
   std::vector<std::string> map_names;
+  observed_names.reserve(observed.size());
+  map_names.reserve(columns.size());
   for (const NamedClass& named : observed) observed_names.push_back(named.name);
   for (const NamedClass& named : columns) map_names.push_back(named.name);
 
