@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to score a view at all 120 headings: `bench_score MAP` (default: maps/duplex_level1).
+// What it costs to score a view at all 120 headings: `bench_score MAP` (default:
+// maps/duplex_level1).
 //
 // The scorer on runs, the naive loop over pixels with real weights, and the same loop in integers
 // take turns in one process and thread on the same views, which the loops get as pixels for free.
@@ -70,11 +71,12 @@ struct PixelWeights {
       return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     };
     for (std::size_t o = 1; o <= classes.size(); ++o) {
-      const std::size_t row = index(weights.observed_names(), classes.name(static_cast<ClassId>(o)));
+      const std::size_t row =
+          index(weights.observed_names(), classes.name(static_cast<ClassId>(o)));
       for (std::size_t m = 0; m <= classes.size(); ++m) {
-        const std::size_t column = index(
-            weights.map_names(),
-            m == 0 ? similarity::kNoneColumn : classes.name(static_cast<ClassId>(m)));
+        const std::size_t column =
+            index(weights.map_names(),
+                  m == 0 ? similarity::kNoneColumn : classes.name(static_cast<ClassId>(m)));
         const double weight = weights.weight(0, row, column) * scale;
         values[o * 256 + m] =
             static_cast<Weight>(std::is_integral_v<Weight> ? std::round(weight) : weight);
@@ -96,8 +98,8 @@ void score_pixels(const LabelImage& observed,
     for (int r = 0; r < observed.rows(); ++r) {
       for (int c = 0; c < columns; ++c) {
         const int turned = c < shift ? c - shift + columns : c - shift;
-        sum += weights.values[static_cast<std::size_t>(observed.at(r, c)) * 256 +
-                              view.at(r, turned)];
+        sum +=
+            weights.values[static_cast<std::size_t>(observed.at(r, c)) * 256 + view.at(r, turned)];
       }
     }
     sums[static_cast<std::size_t>(heading)] = sum;
@@ -168,10 +170,10 @@ int run(const std::string& folder) {
              integers.microseconds_a_view(),
              integers.least_s / runs.least_s,
              by_runs == by_pixels ? "equal sums" : "DIFFERENT SUMS");
-  fmt::print("  (the float loop's best similarity {:.4f}, the runs' {:.4f})\n",
-             *std::ranges::max_element(by_floats[0]) /
-                 static_cast<float>(prepared.observed_pixels()),
-             prepared.similarity(*std::ranges::max_element(by_runs[0])));
+  fmt::print(
+      "  (the float loop's best similarity {:.4f}, the runs' {:.4f})\n",
+      *std::ranges::max_element(by_floats[0]) / static_cast<float>(prepared.observed_pixels()),
+      prepared.similarity(*std::ranges::max_element(by_runs[0])));
   return by_runs == by_pixels ? 0 : 1;
 }
 

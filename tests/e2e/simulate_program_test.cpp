@@ -103,10 +103,11 @@ TEST_F(SimulateProgramTest, ExitsWith2ForAnOptionThatItCannotRead) {
 }
 
 TEST_F(SimulateProgramTest, NamesTheValueThatIsOutOfItsRangeAndWritesNothing) {
-  for (const auto& [options, message] : {std::pair{"--noise 9", "9 is not in [0, 5]"},
-                                         std::pair{"--columns 100", "100 must be a multiple of 120"},
-                                         std::pair{"--fov 400", "400 is not in (0, 360]"},
-                                         std::pair{"--world /nowhere", "/nowhere: no such file"}}) {
+  for (const auto& [options, message] :
+       {std::pair{"--noise 9", "9 is not in [0, 5]"},
+        std::pair{"--columns 100", "100 must be a multiple of 120"},
+        std::pair{"--fov 400", "400 is not in (0, 360]"},
+        std::pair{"--world /nowhere", "/nowhere: no such file"}}) {
     const Outcome outcome = simulate("log", options);
     EXPECT_NE(outcome.exit_code, 0) << options;
     EXPECT_THAT(outcome.output, HasSubstr(message));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Khronos glTF validator as judge of what `semview map export` writes of every shipped map. Needs
-// npm and, once, its registry.
+// The Khronos glTF validator as judge of what `semview map export` writes of every shipped map.
+// Needs npm and, once, its registry.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -47,14 +47,13 @@ std::string missing_validator() {
 
 void expect_neither_errors_nor_warnings(const std::filesystem::path& glb) {
   const Outcome verdict =
-      run_command("node '" SEMVIEW_SOURCE_DIR "/tests/mesh/validate_glb.mjs' '" +
-                  kFolder.string() + "' '" + glb.string() + "'");
+      run_command("node '" SEMVIEW_SOURCE_DIR "/tests/mesh/validate_glb.mjs' '" + kFolder.string() +
+                  "' '" + glb.string() + "'");
   EXPECT_EQ(verdict.exit_code, 0) << glb << ": " << verdict.output;
 }
 
 void expect_exported(const std::filesystem::path& map, const std::filesystem::path& glb) {
-  const Outcome outcome =
-      run_semview("map export '" + map.string() + "' '" + glb.string() + "'");
+  const Outcome outcome = run_semview("map export '" + map.string() + "' '" + glb.string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
 }
 

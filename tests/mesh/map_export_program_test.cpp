@@ -78,7 +78,8 @@ TEST_F(MapExportProgramTest, ExitsWith1AndNamesTheFileThatItCannotUse) {
   EXPECT_EQ(no_folder.exit_code, 1);
   EXPECT_THAT(no_folder.output, HasSubstr(file("none/x.glb") + ": cannot be written"));
 
-  folder_.write("cut.glb", file_bytes(SEMVIEW_SOURCE_DIR "/maps/duplex_building/semantic.glb").substr(0, 999));
+  folder_.write("cut.glb",
+                file_bytes(SEMVIEW_SOURCE_DIR "/maps/duplex_building/semantic.glb").substr(0, 999));
   const Outcome damaged = run_semview("map export " + file("cut.glb") + " " + file("x.glb"));
   EXPECT_EQ(damaged.exit_code, 1);
   EXPECT_THAT(damaged.output, HasSubstr("cut.glb"));

@@ -128,8 +128,7 @@ Result<std::vector<KeyspaceEntry>> LmdbStore::keyspaces() const {
 
 Result<LmdbStore::CompactReport> LmdbStore::compact(const LmdbConfig& config) {
   const std::filesystem::path& directory = config.directory;
-  SEMVIEW_TRY(const detail::DirectoryLock lock,
-              detail::DirectoryLock::take(directory));
+  SEMVIEW_TRY(const detail::DirectoryLock lock, detail::DirectoryLock::take(directory));
   if (!lock.alone()) {
     return fail(Error{ErrorCode::kFailedPrecondition,
                       fmt::format("cache {}: another process has it open", directory.string()),

@@ -43,7 +43,7 @@ struct Meta {
   std::uint64_t transaction;
 };
 struct NodeHead {
-  std::uint16_t low;   // of the data's size; in a branch, of the child's page
+  std::uint16_t low;  // of the data's size; in a branch, of the child's page
   std::uint16_t high;
   std::uint16_t flags;  // in a branch, the child's page continued
   std::uint16_t key_bytes;
@@ -278,7 +278,8 @@ Status check_pages(std::span<const std::byte> file) {
   }
   // Transactions write the two in turn; the younger one counts.
   if (first->transaction % 2 != 0 || (second->transaction != 0 && second->transaction % 2 == 0)) {
-    return damaged(first->transaction % 2 != 0 ? 0 : 1, "is of a transaction that writes the other");
+    return damaged(first->transaction % 2 != 0 ? 0 : 1,
+                   "is of a transaction that writes the other");
   }
   const Meta& current = first->transaction < second->transaction ? *second : *first;
   if (current.last_page < 1 || current.last_page > (file.size() + kUnwrittenBytes) / page_bytes) {

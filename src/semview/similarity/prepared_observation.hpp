@@ -61,8 +61,8 @@ class PreparedObservation {
   /// The sum at one heading of the PoseGrid, in [0, 120).
   std::int32_t sum(const ColumnView& view, int heading) const;
 
-  /// The sums at all headings. @cost runs × observed columns / (W/120) 16-bit additions; about a hundredth of a
-  /// loop over the pixels (bench/RESULTS.md)
+  /// The sums at all headings. @cost runs × observed columns / (W/120) 16-bit additions; about a
+  /// hundredth of a loop over the pixels (bench/RESULTS.md)
   void all_headings(const ColumnView& view,
                     std::span<std::int32_t, PoseGrid::kHeadings> sums) const;
 
