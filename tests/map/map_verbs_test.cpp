@@ -102,6 +102,22 @@ TEST_F(MapVerbsTest, InfoOfAMeshMapCountsFreeCells) {
   EXPECT_GT(info["free_cells"].get<int>(), 5000);
 }
 
+TEST_F(MapVerbsTest, CheckTellsAMeshWithoutFreeSpaceHowHighItReaches) {
+  write_bundle(folder_ / "map", room());
+  ASSERT_EQ(semview_map("export " + at("map") + " " + at("room.glb")).exit_code, 0);
+  std::filesystem::create_directory(folder_ / "mesh");
+  std::filesystem::rename(folder_ / "room.glb", folder_ / "mesh" / "room.glb");
+  const std::string yaml =
+      "semview:\n  format: 1\n  mesh: room.glb\n  ground: {class: floor, height: 1.5}\n"
+      "  classes: [{name: ceiling}, {name: floor}, {name: wall}, {name: door}, {name: window},"
+      " {name: table}]\n";
+  testing::write_text(folder_ / "mesh" / "map.yaml", yaml);
+  const Outcome run = semview_map("check " + at("mesh"));
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.output, HasSubstr("mesh/room.glb: error: there is no free space"));
+  EXPECT_THAT(run.output, HasSubstr("the mesh reaches from z = 0.00 to 2.60"));
+}
+
 TEST_F(MapVerbsTest, InfoIsReadableForPeople) {
   write_bundle(folder_ / "map", room());
   const Outcome run = semview_map("info " + at("map"));
