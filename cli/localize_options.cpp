@@ -233,19 +233,7 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
     return usage("--init-heading-sigma",
                  fmt::format("{}: expected 0 to 360", options.init_heading_sigma_deg));
   }
-  if (options.server.empty()) return {};
-  for (const char* option : {"--engine",
-                             "--eye-height",
-                             "--columns",
-                             "--rows",
-                             "--elevation",
-                             "--cache",
-                             "--cache-limit",
-                             "--nearest-colour"}) {
-    if (verb.get_option(option)->count() == 0) continue;
-    return usage(option, "is the server's own choice; leave it out with --server");
-  }
-  return {};
+  return options.server.empty() ? Status() : check_no_site_options(verb);
 }
 
 Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) {

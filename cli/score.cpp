@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "client/lib/remote_score_source.hpp"
 #include "observation_option.hpp"
 #include "pose_list.hpp"
 #include "semview/core/hash.hpp"
@@ -25,6 +26,7 @@ using nlohmann::ordered_json;
 
 struct Options {
   SiteOptions site;
+  std::string server;  ///< empty: in this process
   ObservationOption observation;
   std::string weights;
   std::string pose;
@@ -89,13 +91,53 @@ ordered_json pose_json(const ScoreRequest& request,
   return entry;
 }
 
-void print_json(const service::Site& site,
+/// Who scores, this process or a server.
+struct Scorer {
+  std::shared_ptr<service::Site> site;  ///< what `source` stands on; null with a server
+  std::unique_ptr<ScoreSource> source;
+  std::string map_id;
+  Fingerprint fingerprint;
+  std::string engine;
+};
+
+Result<Scorer> open_remote(const Options& options, similarity::WeightMatrix weights) {
+  client::ConnectionConfig config;
+  config.endpoint = options.server;
+  config.client_name = "semview score";
+  if (const Status valid = validate(config); !valid) {
+    Error error = valid.error();
+    error.field = "--server";
+    return fail(std::move(error));
+  }
+  SEMVIEW_TRY(auto remote,
+              client::RemoteScoreSource::open(config, options.site.map, std::move(weights)));
+  Scorer scorer;
+  scorer.map_id = remote->map().summary.id;
+  scorer.fingerprint = remote->map().summary.fingerprint;
+  scorer.engine = remote->map().engine;
+  scorer.source = std::move(remote);
+  return scorer;
+}
+
+Result<Scorer> open_scorer(const Options& options, similarity::WeightMatrix weights) {
+  if (!options.server.empty()) return open_remote(options, std::move(weights));
+  Scorer scorer;
+  SEMVIEW_TRY(scorer.site, open_site(options.site));
+  scorer.map_id = scorer.site->id();
+  scorer.fingerprint = scorer.site->map().fingerprint;
+  scorer.engine = scorer.site->engine().name;
+  scorer.source = std::make_unique<similarity::SimilarityScoreSource>(
+      scorer.site->views(), scorer.site->map().classes, std::move(weights), scorer.site->pool());
+  return scorer;
+}
+
+void print_json(const Scorer& scorer,
                 const ScoreRequest& request,
                 const ScoreBatch& batch,
                 bool clip) {
-  ordered_json json{{"map", site.id()},
-                    {"fingerprint", to_hex(site.map().fingerprint)},
-                    {"engine", site.engine().name},
+  ordered_json json{{"map", scorer.map_id},
+                    {"fingerprint", to_hex(scorer.fingerprint)},
+                    {"engine", scorer.engine},
                     {"weight_scale", batch.weight_scale},
                     {"observed_pixels", batch.observed_pixels},
                     {"cells",
@@ -139,17 +181,17 @@ void print_table(const ScoreRequest& request, const ScoreBatch& batch, const Opt
   }
 }
 
-Status score(const Options& options) {
+Status score(const CLI::App& verb, const Options& options) {
+  if (!options.server.empty()) SEMVIEW_TRY_STATUS(check_no_site_options(verb));
   SEMVIEW_TRY(const ScoreRequest request, request_of(options));
   SEMVIEW_TRY(similarity::WeightMatrix weights, similarity::read_weight_matrix(options.weights));
-  SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
-  SEMVIEW_TRY(const Observation observation, read(options.observation, site->profile().camera));
-  similarity::SimilarityScoreSource source(
-      site->views(), site->map().classes, std::move(weights), site->pool());
-  SEMVIEW_TRY_STATUS(source.set_observation(observation));
-  SEMVIEW_TRY(const ScoreBatch batch, source.score(request));
+  SEMVIEW_TRY(const Scorer scorer, open_scorer(options, std::move(weights)));
+  SEMVIEW_TRY(const Observation observation,
+              read(options.observation, scorer.source->profile().camera));
+  SEMVIEW_TRY_STATUS(scorer.source->set_observation(observation));
+  SEMVIEW_TRY(const ScoreBatch batch, scorer.source->score(request));
   if (options.json) {
-    print_json(*site, request, batch, options.clip);
+    print_json(scorer, request, batch, options.clip);
   } else {
     print_table(request, batch, options);
   }
@@ -166,6 +208,8 @@ void add_score_verb(CLI::App& app, int& exit_code) {
       "headings are tried at each position and the best is reported.");
   const auto options = std::make_shared<Options>();
   add_site_options(*verb, options->site);
+  verb->add_option("--server", options->server, "Let this server score; MAP is the map's id there")
+      ->type_name("tcp://HOST:PORT");
   add_observation_option(*verb, options->observation);
   verb->add_option("--weights", options->weights, "Weight matrix")
       ->type_name("FILE.csv")
@@ -181,7 +225,7 @@ void add_score_verb(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: semview score maps/duplex_level1 --obs obs --weights "
       "maps/duplex_level1/weights.csv --pose 3,-9,90 --compass");
-  verb->callback([options, &exit_code] { exit_code = report(score(*options)); });
+  verb->callback([verb, options, &exit_code] { exit_code = report(score(*verb, *options)); });
 }
 
 }  // namespace semview::cli

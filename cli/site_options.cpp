@@ -9,7 +9,6 @@
 #include "verb.hpp"
 
 namespace semview::cli {
-
 namespace {
 
 constexpr int kMostThreads = 1024;
@@ -43,6 +42,24 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
   verb.add_flag("--nearest-colour",
                 options.nearest_colour,
                 "Take a plan's in-between colours for the nearest class colour");
+}
+
+Status check_no_site_options(const CLI::App& verb) {
+  for (const char* option : {"--engine",
+                             "--eye-height",
+                             "--columns",
+                             "--rows",
+                             "--elevation",
+                             "--cache",
+                             "--cache-limit",
+                             "--nearest-colour"}) {
+    if (verb.get_option(option)->count() == 0) continue;
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              fmt::format("{}: is the server's own choice; leave it out with --server", option),
+              option});
+  }
+  return {};
 }
 
 Result<service::SiteConfig> site_config(const SiteOptions& options) {

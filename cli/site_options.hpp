@@ -34,6 +34,10 @@ struct SiteOptions {
 /// `options` must outlive the parse.
 void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required = true);
 
+/// Where `verb` asks a server: none of the options that are the server's own choice was given.
+/// @errors kInvalidArgument, with the option as the field.
+Status check_no_site_options(const CLI::App& verb);
+
 /// @errors kInvalidArgument, with the option as the field.
 Result<service::SiteConfig> site_config(const SiteOptions& options);
 

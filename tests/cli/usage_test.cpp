@@ -117,6 +117,39 @@ TEST_F(UsageTest, AnEmptyFolderIsNoRunLogAndNoObservation) {
                  "empty: has neither observation.yaml nor log.yaml");
 }
 
+TEST_F(UsageTest, AServerScoresAsThisProcessDoes) {
+  ASSERT_EQ(run({"simulate", kMap, "--out", file("log"), "--steps", "2"}), 0) << errors_;
+  ChildProcess server(
+      "semview-server", {"--map", kMap, "--bind", "tcp://127.0.0.1:0"}, folder_ / "server");
+  ASSERT_TRUE(server.says("listening on tcp://")) << server.errors();
+  const std::string text = server.output();
+  const std::size_t begin = text.find("tcp://");
+  const std::string endpoint = text.substr(begin, text.find('\n', begin) - begin);
+  const auto score = [&](Arguments arguments) {
+    const Arguments same{"--obs", file("log"), "--frame", "1", "--weights", kMap + "/weights.csv"};
+    arguments.insert(arguments.end(), same.begin(), same.end());
+    arguments.insert(arguments.end(), {"--pose", "3,-9,90", "--compass"});
+    EXPECT_EQ(run(arguments), 0) << errors_;
+    return output_;
+  };
+  const std::string here = score({"score", kMap});
+  EXPECT_EQ(score({"score", "duplex_level1", "--server", endpoint}), here);
+  EXPECT_THAT(here, HasSubstr("best_yaw_deg"));
+  expect_usage({"score",
+                "duplex_level1",
+                "--server",
+                endpoint,
+                "--cache",
+                "c",
+                "--obs",
+                "x",
+                "--weights",
+                "w",
+                "--pose",
+                "1,1,1"},
+               "--cache: is the server's own choice");
+}
+
 TEST_F(UsageTest, ADryRunMakesNoCacheAndProgressBeginsWithoutAGuess) {
   const Arguments region{"precompute", kMap, "--cache", file("cache"), "--region", "1,-5,2,-4"};
   Arguments dry = region;
