@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the network costs: round trips, views and a 2000-pose compass over TCP, beside the same call
-// in-process. Server and client run in this process, on a real map.
+// What the network costs: views and scores over TCP beside the same calls in-process. Server and
+// client run in this process, on a real map.
 //
 //   bench_served [MAP_FOLDER]      default: maps/duplex_level1 of the source tree
 //
-// Remote and in-process calls take turns; the least times are printed, and their ratio: on a busy
-// machine only that is worth reading.
+// Both sides take turns and have caches of their own; cold views are cast, warm ones lie in memory.
+// Of each side the best round counts: on a busy machine only the ratio is worth reading.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,19 +30,6 @@
 namespace semview {
 namespace {
 
-double milliseconds_of(const std::function<void()>& body) {
-  const auto start = std::chrono::steady_clock::now();
-  body();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
-double least(int repetitions, const std::function<void()>& body) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < repetitions; ++i) best = std::min(best, milliseconds_of(body));
-  return best;
-}
-
 template <typename T>
 T must(Result<T> result) {
   if (!result) {
@@ -52,8 +39,69 @@ T must(Result<T> result) {
   return *std::move(result);
 }
 
-ScoreRequest compass_poses(const service::Site& site, std::size_t count) {
-  const std::vector<CellIndex> cells = site.cells().free_cells();
+void must(const Status& status) {
+  if (status) return;
+  fmt::print(stderr, "bench_served: {}\n", status.error().message);
+  std::exit(1);
+}
+
+/// Seconds of the best round.
+struct Times {
+  double served = std::numeric_limits<double>::infinity();
+  double in_process = std::numeric_limits<double>::infinity();
+};
+
+template <typename Body>
+double seconds_of(const Body& body) {
+  const auto start = std::chrono::steady_clock::now();
+  body();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Calls `served(round)` and `in_process(round)` in turn.
+template <typename Served, typename InProcess>
+Times compare(int rounds, const Served& served, const InProcess& in_process) {
+  Times best;
+  for (int round = 0; round < rounds; ++round) {
+    best.served = std::min(best.served, seconds_of([&] { served(round); }));
+    best.in_process = std::min(best.in_process, seconds_of([&] { in_process(round); }));
+  }
+  return best;
+}
+
+void print_rates(const std::string& what, std::size_t count, const Times& times) {
+  const auto number = static_cast<double>(count);
+  fmt::print("{:<36} {:>10.0f}/s {:>10.0f}/s {:>9.2f}\n",
+             what,
+             number / times.served,
+             number / times.in_process,
+             times.in_process / times.served);
+}
+
+void compare_views(ViewSource& served, ViewSource& in_process, std::span<const CellIndex> cells) {
+  constexpr int kColdRounds = 20;
+  constexpr int kWarmRounds = 200;
+  for (const std::size_t count : {std::size_t{1}, std::size_t{64}}) {
+    const auto part = [&](int round) {
+      return cells.subspan(static_cast<std::size_t>(round) * count, count);
+    };
+    print_rates(fmt::format("cold views, {} a request", count),
+                count,
+                compare(
+                    kColdRounds,
+                    [&](int round) { must(served.views(part(round))); },
+                    [&](int round) { must(in_process.views(part(round))); }));
+    print_rates(fmt::format("warm views, {} a request", count),
+                count,
+                compare(
+                    kWarmRounds,
+                    [&](int) { must(served.views(part(0))); },
+                    [&](int) { must(in_process.views(part(0))); }));
+    cells = cells.subspan(kColdRounds * count);
+  }
+}
+
+ScoreRequest compass_poses(std::span<const CellIndex> cells, std::size_t count) {
   Rng rng(1);
   ScoreRequest request{{}, HeadingMode::kCompass, false};
   for (std::size_t i = 0; i < count; ++i) {
@@ -65,69 +113,69 @@ ScoreRequest compass_poses(const service::Site& site, std::size_t count) {
   return request;
 }
 
-void compare_scores(ScoreSource& remote, ScoreSource& local, const ScoreRequest& request) {
-  double remote_ms = std::numeric_limits<double>::infinity();
-  double local_ms = remote_ms;
-  ScoreBatch remote_batch;
-  ScoreBatch local_batch;
-  for (int i = 0; i < 30; ++i) {
-    remote_ms =
-        std::min(remote_ms, milliseconds_of([&] { remote_batch = must(remote.score(request)); }));
-    local_ms =
-        std::min(local_ms, milliseconds_of([&] { local_batch = must(local.score(request)); }));
+void compare_scores(ScoreSource& served,
+                    ScoreSource& in_process,
+                    std::span<const CellIndex> cells) {
+  constexpr int kRounds = 30;
+  for (const std::size_t count : {1, 100, 500, 2000, 20'000}) {
+    const ScoreRequest request = compass_poses(cells, count);
+    ScoreBatch remote;
+    ScoreBatch local;
+    print_rates(fmt::format("warm compass scores, {} a request", count),
+                count,
+                compare(
+                    kRounds,
+                    [&](int) { remote = must(served.score(request)); },
+                    [&](int) { local = must(in_process.score(request)); }));
+    if (remote.sums != local.sums || remote.best_heading != local.best_heading) {
+      fmt::print(stderr, "bench_served: the scores of {} poses differ\n", count);
+      std::exit(1);
+    }
   }
-  const bool equal = remote_batch.sums == local_batch.sums &&
-                     remote_batch.best_heading == local_batch.best_heading;
-  fmt::print("compass, {:5} poses: served {:7.2f} ms, in-process {:7.2f} ms, {:.2f}x, {}\n",
-             request.poses.size(),
-             remote_ms,
-             local_ms,
-             remote_ms / local_ms,
-             equal ? "equal bits" : "DIFFERENT");
 }
 
-int run(const std::string& folder) {
-  const std::shared_ptr<service::Site> site = must(service::Site::open(folder, {}));
+void run(const std::string& folder) {
+  const std::shared_ptr<service::Site> in_process = must(service::Site::open(folder, {}));
   service::MapRegistry maps;
-  if (!maps.add(site)) return 1;
+  must(maps.add(must(service::Site::open(folder, {}))));
   server::ServerConfig config;
   config.bind = "tcp://127.0.0.1:*";
   const auto server = must(server::Server::start(config, std::move(maps)));
   client::ConnectionConfig to_server;
   to_server.endpoint = server->endpoint();
   to_server.timeout = std::chrono::minutes(5);
+  const std::string& map_id = in_process->id();
 
   client::Connection connection = must(client::Connection::open(to_server));
-  must(client::list_maps(connection));
-  fmt::print("round trip (ListMaps): {:.3f} ms\n",
-             least(2000, [&] { must(client::list_maps(connection)); }));
+  const auto list_maps = [&](int) { must(client::list_maps(connection)); };
+  fmt::print("round trip (ListMaps): {:.3f} ms\n\n",
+             1e3 * compare(2000, list_maps, [](int) {}).served);
+  fmt::print("{:<36} {:>12} {:>12} {:>9}\n", "", "served", "in-process", "ratio");
 
-  const auto views = must(client::RemoteViewSource::open(to_server, site->id()));
-  const std::vector<CellIndex> cells = site->cells().free_cells();
-  std::size_t next = 0;
-  const double cold = least(50, [&] { must(views->views(std::span(&cells[next++ * 7], 1))); });
-  const double warm = least(500, [&] { must(views->views(std::span(cells.data(), 1))); });
-  fmt::print("one view over TCP: cold {:.3f} ms, warm {:.3f} ms\n", cold, warm);
+  const auto served_views = must(client::RemoteViewSource::open(to_server, map_id));
+  std::vector<CellIndex> cells = in_process->cells().free_cells();
+  compare_views(*served_views, in_process->views(), cells);
 
-  const auto weights = similarity::WeightMatrix::identity(site->map().classes);
-  const auto remote = must(client::RemoteScoreSource::open(to_server, site->id(), weights));
-  similarity::SimilarityScoreSource local(
-      site->views(), site->map().classes, weights, site->pool());
-  const auto seen = must(site->views().views(std::span(&cells[cells.size() / 2], 1)));
-  const Observation observation{site->map().classes, seen.views[0]->to_labels(40), 0.0};
-  double set_ms = least(50, [&] { static_cast<void>(remote->set_observation(observation)); });
-  fmt::print("SetObservation: {:.3f} ms\n", set_ms);
-  set_ms = least(50, [&] { static_cast<void>(local.set_observation(observation)); });
-  fmt::print("the same in-process: {:.3f} ms\n", set_ms);
-  for (const std::size_t count : {1, 100, 500, 2000, 20'000}) {
-    compare_scores(*remote, local, compass_poses(*site, count));
-  }
-  return 0;
+  const ClassTable& classes = in_process->map().classes;
+  const auto weights = similarity::WeightMatrix::identity(classes);
+  const auto served_scores = must(client::RemoteScoreSource::open(to_server, map_id, weights));
+  similarity::SimilarityScoreSource scores(
+      in_process->views(), classes, weights, in_process->pool());
+  const ViewBatch seen = must(in_process->views().views(std::span(&cells[cells.size() / 2], 1)));
+  const Observation observation{classes, seen.views[0]->to_labels(40), 0.0};
+  print_rates("SetObservation",
+              1,
+              compare(
+                  50,
+                  [&](int) { must(served_scores->set_observation(observation)); },
+                  [&](int) { must(scores.set_observation(observation)); }));
+  compare_scores(*served_scores, scores, cells);
 }
 
 }  // namespace
 }  // namespace semview
 
 int main(int argc, char** argv) {
-  return semview::run(argc > 1 ? argv[1] : std::string(SEMVIEW_SOURCE_DIR) + "/maps/duplex_level1");
+  semview::run(argc > 1 ? argv[1] : std::string(SEMVIEW_SOURCE_DIR) + "/maps/duplex_level1");
+  return 0;
 }
