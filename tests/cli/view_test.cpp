@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `semview view` as a person or script calls it.
-#include <cstdlib>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include "semview/io/png.hpp"
 #include "semview/io/range_png.hpp"
@@ -13,7 +11,7 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
-#include "support/paths.hpp"
+#include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview {
@@ -25,11 +23,9 @@ class ViewVerbTest : public ::testing::Test {
  protected:
   /// Runs `semview view`, standard output and error into files; returns the exit code.
   int view(const std::string& arguments) {
-    const std::string command = std::string(SEMVIEW_BINARY_DIR "/semview view ") + arguments +
-                                " >" + (folder_ / "out").string() + " 2>" +
-                                (folder_ / "err").string();
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return testing::run_command("('" SEMVIEW_BINARY_DIR "/semview' view " + arguments + " >" +
+                                file("out") + " 2>" + file("err") + ")")
+        .exit_code;
   }
   std::string out() const { return testing::file_bytes(folder_ / "out"); }
   std::string err() const { return testing::file_bytes(folder_ / "err"); }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The built program, run on a log made here.
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -10,34 +8,17 @@
 
 #include "semview/io/png.hpp"
 #include "semview/io/run_log.hpp"
-#include "support/paths.hpp"
+#include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview {
 namespace {
 
 using semview::testing::file_bytes;
+using semview::testing::Outcome;
+using semview::testing::run_semview;
 using semview::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  ///< standard output and standard error
-};
-
-Outcome run(const std::string& arguments) {
-  const std::string command = std::string(SEMVIEW_BINARY_DIR) + "/semview " + arguments + " 2>&1";
-  Outcome outcome;
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> block{};
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), pipe)) {
-    outcome.output.append(block.data(), count);
-  }
-  const int status = ::pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
 
 class EvaluateRunTest : public ::testing::Test {
  protected:
@@ -69,7 +50,7 @@ class EvaluateRunTest : public ::testing::Test {
 };
 
 TEST_F(EvaluateRunTest, JsonHoldsTheErrorsBesideOdometrys) {
-  const Outcome outcome = run(arguments("--json"));
+  const Outcome outcome = run_semview(arguments("--json"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const nlohmann::json json = nlohmann::json::parse(outcome.output);
   const nlohmann::json& result = json.at("estimates").at(0);
@@ -83,31 +64,31 @@ TEST_F(EvaluateRunTest, JsonHoldsTheErrorsBesideOdometrys) {
 TEST_F(EvaluateRunTest, PicturesAreWrittenWithAndWithoutAPlan) {
   const std::string png = (folder_ / "a.png").string();
   const std::string svg = (folder_ / "a.svg").string();
-  ASSERT_EQ(run(arguments("--png " + png + " --svg " + svg)).exit_code, 0);
+  ASSERT_EQ(run_semview(arguments("--png " + png + " --svg " + svg)).exit_code, 0);
   EXPECT_GT(io::png_size(png)->columns, 100);
   EXPECT_THAT(file_bytes(svg), HasSubstr("</svg>"));
   const Outcome with_map =
-      run(arguments("--png " + png + " --map " SEMVIEW_SOURCE_DIR "/maps/duplex_level1"));
+      run_semview(arguments("--png " + png + " --map " SEMVIEW_SOURCE_DIR "/maps/duplex_level1"));
   EXPECT_EQ(with_map.exit_code, 0) << with_map.output;
 }
 
 TEST_F(EvaluateRunTest, TheFinalLimitDecidesTheExitCode) {
-  EXPECT_EQ(run(arguments("--final-within 0.3")).exit_code, 0);
-  const Outcome outcome = run(arguments("--final-within 0.05"));
+  EXPECT_EQ(run_semview(arguments("--final-within 0.3")).exit_code, 0);
+  const Outcome outcome = run_semview(arguments("--final-within 0.05"));
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output, HasSubstr("ends 0.100 m from the truth, odometry 0.800 m"));
 }
 
 TEST_F(EvaluateRunTest, WithoutGroundTruthItSaysSo) {
   std::filesystem::remove(folder_ / "log/groundtruth.txt");
-  const Outcome outcome = run(arguments(""));
+  const Outcome outcome = run_semview(arguments(""));
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output, HasSubstr("has no groundtruth.txt"));
 }
 
 TEST(EvaluateUsageTest, MissingOptionsAreUsageErrors) {
-  EXPECT_EQ(run("evaluate run").exit_code, 2);
-  EXPECT_EQ(run("evaluate").exit_code, 2);
+  EXPECT_EQ(run_semview("evaluate run").exit_code, 2);
+  EXPECT_EQ(run_semview("evaluate").exit_code, 2);
 }
 
 }  // namespace

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The built program: exit codes and what scripts read.
-#include <array>
-#include <cstdio>
-
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include "map/bundle.hpp"
 #include "semview/io/png.hpp"
-#include "support/paths.hpp"
+#include "support/run_program.hpp"
 
 namespace semview::map {
 namespace {
 
 using nlohmann::json;
+using semview::testing::Outcome;
 using ::testing::HasSubstr;
 using testing::map_yaml;
 using testing::replaced;
@@ -24,24 +20,8 @@ using testing::room;
 using testing::TempFolder;
 using testing::write_bundle;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  ///< both streams
-};
-
 Outcome semview_map(const std::string& arguments) {
-  const std::string command =
-      fmt::format("\"{}/semview\" map {} 2>&1", SEMVIEW_BINARY_DIR, arguments);
-  Outcome run;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return run;
-  std::array<char, 4096> block{};
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), pipe)) {
-    run.output.append(block.data(), count);
-  }
-  const int status = ::pclose(pipe);
-  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return run;
+  return semview::testing::run_semview("map " + arguments);
 }
 
 class MapVerbsTest : public ::testing::Test {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview weights|score|heatmap` as a user runs them, on a shipped plan.
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -16,21 +14,17 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/service/site.hpp"
-#include "support/paths.hpp"
+#include "support/run_program.hpp"
 
 namespace semview {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  ///< standard output and error
-};
+using semview::testing::Outcome;
+using ::testing::HasSubstr;
 
 /// An observation cast from the centre of a free cell of the duplex, turned by 90°.
-class ScoreVerbsTest : public testing::Test {
+class ScoreVerbsTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::filesystem::temp_directory_path() /
@@ -52,16 +46,7 @@ class ScoreVerbsTest : public testing::Test {
   static void TearDownTestSuite() { std::filesystem::remove_all(folder_); }
 
   static Outcome run(const std::string& arguments) {
-    const std::string command = std::string(SEMVIEW_BINARY_DIR) + "/semview " + arguments + " 2>&1";
-    Outcome outcome;
-    FILE* const pipe = popen(command.c_str(), "r");
-    char buffer[4096];
-    while (const std::size_t count = fread(buffer, 1, sizeof(buffer), pipe)) {
-      outcome.output.append(buffer, count);
-    }
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+    return semview::testing::run_semview(arguments);
   }
   static std::string file(const std::string& name) { return (folder_ / name).string(); }
   static std::string inputs() {
