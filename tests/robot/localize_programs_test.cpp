@@ -7,25 +7,50 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "semview/geometry/angle.hpp"
 #include "semview/io/trajectory.hpp"
-#include "support/child_process.hpp"
+#include "support/running_server.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview {
 namespace {
 
 using semview::testing::ChildProcess;
+using semview::testing::RunningServer;
 using Arguments = std::vector<std::string>;
 
 const std::string kMap = std::string(SEMVIEW_SOURCE_DIR) + "/maps/duplex_level1";
+
+/// A simulated drive on disk.
+struct Drive {
+  std::string log;
+  std::vector<io::StampedPose2> truth;
+  std::vector<io::StampedPose2> odometry;
+
+  /// --init at the first pose, 0.3 m uncertain, rounded as demo.sh rounds it.
+  std::string known_start() const {
+    const Pose2& pose = truth.front().pose;
+    return fmt::format("{:.3f},{:.3f},{:.1f},0.3", pose.x_m, pose.y_m, deg_from_rad(pose.yaw_rad));
+  }
+};
 
 struct Ends {
   double estimate_m = 0.0;
   double odometry_m = 0.0;
 };
+
+/// How far off the last pose of an estimate is, and odometry laid onto the true start.
+Ends ends(const Drive& drive, const std::string& estimate) {
+  const io::StampedPose2 last = io::read_tum(estimate)->back();
+  const Pose2 truth = *io::interpolate(drive.truth, last.stamp_s);
+  const Pose2 odometry =
+      drive.truth.front().pose *
+      (inverse(drive.odometry.front().pose) * *io::interpolate(drive.odometry, last.stamp_s));
+  return {distance_m(last.pose, truth), distance_m(odometry, truth)};
+}
 
 class LocalizeProgramsTest : public ::testing::Test {
  protected:
@@ -34,79 +59,79 @@ class LocalizeProgramsTest : public ::testing::Test {
   int run(const std::string& program, const Arguments& arguments) {
     ChildProcess process(program, arguments, folder_ / "last");
     const int code = process.wait();
-    last_output_ = process.output();
     last_errors_ = process.errors();
     return code;
   }
 
-  void simulate(const std::string& log, int seed, int steps) {
-    ASSERT_EQ(run("semview",
+  Drive simulate(const std::string& name, int seed, int frames) {
+    Drive drive{file(name), {}, {}};
+    EXPECT_EQ(run("semview",
                   {"simulate",
                    kMap,
                    "--out",
-                   file(log),
+                   drive.log,
                    "--seed",
                    std::to_string(seed),
                    "--steps",
-                   std::to_string(steps)}),
+                   std::to_string(frames)}),
               0)
         << last_errors_;
-    truth_ = *io::read_tum(folder_ / (log + "/groundtruth.txt"));
-    odometry_ = *io::read_tum(folder_ / (log + "/odometry.txt"));
+    drive.truth = *io::read_tum(drive.log + "/groundtruth.txt");
+    drive.odometry = *io::read_tum(drive.log + "/odometry.txt");
+    return drive;
   }
 
-  /// --init at the log's first pose, 0.3 m uncertain.
-  std::string known_start() const {
-    const Pose2& pose = truth_.front().pose;
-    return std::to_string(pose.x_m) + "," + std::to_string(pose.y_m) + "," +
-           std::to_string(deg_from_rad(pose.yaw_rad)) + ",0.3";
+  std::unique_ptr<RunningServer> serve(const std::string& endpoint = "tcp://127.0.0.1:*") const {
+    return std::make_unique<RunningServer>(
+        Arguments{"--map", kMap, "--bind", endpoint, "--cache", file("cache")}, folder_ / "server");
   }
 
-  /// How far off the last pose of an estimate is, and odometry laid onto the true start.
-  Ends ends(const std::string& estimate) const {
-    const io::StampedPose2 last = io::read_tum(folder_ / estimate)->back();
-    const Pose2 truth = *io::interpolate(truth_, last.stamp_s);
-    const Pose2 odometry = truth_.front().pose * (inverse(odometry_.front().pose) *
-                                                  *io::interpolate(odometry_, last.stamp_s));
-    return {distance_m(last.pose, truth), distance_m(odometry, truth)};
-  }
-
-  /// A server of the map on `endpoint`; port 0 takes a free one. Sets `endpoint_`.
-  std::unique_ptr<ChildProcess> serve(const std::string& endpoint) {
-    auto server = std::make_unique<ChildProcess>(
-        "semview-server",
-        Arguments{"--map", kMap, "--bind", endpoint, "--cache", file("cache")},
-        folder_ / "server");
-    EXPECT_TRUE(server->says("listening on tcp://")) << server->errors();
-    const std::string text = server->output();
-    const std::size_t begin = text.find("tcp://");
-    endpoint_ = text.substr(begin, text.find('\n', begin) - begin);
-    return server;
+  /// A robot as demo.sh starts it; it writes `drive.log`.est.tum.
+  static std::unique_ptr<ChildProcess> localize(const Drive& drive,
+                                                std::size_t seed,
+                                                const RunningServer& server,
+                                                const std::string& heading) {
+    return std::make_unique<ChildProcess>("semview",
+                                          Arguments{"localize",
+                                                    "--log",
+                                                    drive.log,
+                                                    "--server",
+                                                    server.endpoint(),
+                                                    "--map",
+                                                    "duplex_level1",
+                                                    "--weights",
+                                                    kMap + "/weights.csv",
+                                                    "--init",
+                                                    drive.known_start(),
+                                                    "--seed",
+                                                    std::to_string(seed),
+                                                    "--heading",
+                                                    heading,
+                                                    "-o",
+                                                    drive.log + ".est.tum"},
+                                          drive.log);
   }
 
   semview::testing::TemporaryFolder folder_;
-  std::vector<io::StampedPose2> truth_;
-  std::vector<io::StampedPose2> odometry_;
-  std::string endpoint_;
-  std::string last_output_;
   std::string last_errors_;
 };
 
 TEST_F(LocalizeProgramsTest, InProcessAndRemoteWriteTheSameBytesForAnyNumberOfThreads) {
-  simulate("log", 1, 8);
-  const auto server = serve("tcp://127.0.0.1:0");
+  const Drive drive = simulate("log", 1, 8);
+  const auto server = serve();
   for (const char* heading : {"odometry", "compass"}) {
     for (const bool global : {false, true}) {
-      Arguments common{"localize", "--log", file("log"), "--seed", "7", "--heading", heading};
+      Arguments common{"localize", "--log", drive.log, "--seed", "7", "--heading", heading};
       common.insert(common.end(), {"--particles", "300", "--timeout", "60"});
       if (global) {
         common.emplace_back("--global");
       } else {
-        common.insert(common.end(), {"--init", known_start()});
+        common.insert(common.end(), {"--init", drive.known_start()});
       }
       Arguments remote = common;
-      remote.insert(remote.end(),
-                    {"--server", endpoint_, "--map", "duplex_level1", "-o", file("remote.tum")});
+      remote.insert(
+          remote.end(),
+          {"--server", server->endpoint(), "--map", "duplex_level1", "-o", file("remote.tum")});
       ASSERT_EQ(run("semview", remote), 0) << last_errors_;
       for (const char* threads : {"1", "3"}) {
         Arguments local = common;
@@ -123,19 +148,20 @@ TEST_F(LocalizeProgramsTest, InProcessAndRemoteWriteTheSameBytesForAnyNumberOfTh
 }
 
 TEST_F(LocalizeProgramsTest, ServerThatGoesAwayLeavesAStaleStretchAndTheRunRecovers) {
-  simulate("log", 1, 40);
-  auto server = serve("tcp://127.0.0.1:0");
+  const Drive drive = simulate("log", 1, 40);
+  auto server = serve();
+  const std::string endpoint = server->endpoint();
   // 40 seconds of log: there is time to lose the server and to find it again.
   ChildProcess localize("semview",
                         {"localize",
                          "--log",
-                         file("log"),
+                         drive.log,
                          "--server",
-                         endpoint_,
+                         endpoint,
                          "--map",
                          "duplex_level1",
                          "--init",
-                         known_start(),
+                         drive.known_start(),
                          "--rate",
                          "2",
                          "--timeout",
@@ -147,50 +173,40 @@ TEST_F(LocalizeProgramsTest, ServerThatGoesAwayLeavesAStaleStretchAndTheRunRecov
   server->signal(SIGKILL);
   server->wait();
   ASSERT_TRUE(localize.says("going on by odometry")) << localize.errors();
-  server = serve(endpoint_);
+  server = serve(endpoint);
   ASSERT_TRUE(localize.says("scored again")) << localize.errors();
   ASSERT_EQ(localize.wait(), 0) << localize.errors();
   const std::string frames = semview::testing::file_bytes(file("est.frames.csv"));
   EXPECT_NE(frames.find(",stale,"), std::string::npos);
-  EXPECT_LT(ends("est.tum").estimate_m, 0.3);
+  EXPECT_LT(ends(drive, file("est.tum")).estimate_m, 0.3);
 }
 
-TEST_F(LocalizeProgramsTest, TenSeedsEndNearTheTruthAndNearerThanTheirOdometry) {
-  for (const char* heading : {"odometry", "compass"}) {
-    for (int seed = 1; seed <= 10; ++seed) {
-      const std::string log = "log" + std::to_string(seed);
-      if (!std::filesystem::exists(file(log))) {
-        simulate(log, seed, 30);
-      } else {
-        truth_ = *io::read_tum(folder_ / (log + "/groundtruth.txt"));
-        odometry_ = *io::read_tum(folder_ / (log + "/odometry.txt"));
+/// What demo.sh does with seeds 1 and 2, and exits by; the compass, too.
+TEST_F(LocalizeProgramsTest, TenSeedsInPairsEndNearTheTruthAndNearerThanTheirOdometry) {
+  constexpr int kFrames = 60;
+  std::vector<Drive> drives;
+  for (int seed = 1; seed <= 10; ++seed) {
+    drives.push_back(simulate("robot" + std::to_string(seed), seed, kFrames));
+  }
+  const auto server = serve();
+  for (const std::string heading : {"odometry", "compass"}) {
+    for (std::size_t first = 0; first < drives.size(); first += 2) {
+      const auto one = localize(drives[first], first + 1, *server, heading);
+      const auto other = localize(drives[first + 1], first + 2, *server, heading);
+      ASSERT_EQ(one->wait(), 0) << one->errors();
+      ASSERT_EQ(other->wait(), 0) << other->errors();
+      for (const Drive& drive : {drives[first], drives[first + 1]}) {
+        const Ends end = ends(drive, drive.log + ".est.tum");
+        EXPECT_LT(end.estimate_m, 0.3) << heading << ", " << drive.log;
+        EXPECT_LT(end.estimate_m, end.odometry_m) << heading << ", " << drive.log;
       }
-      ASSERT_EQ(run("semview",
-                    {"localize",
-                     "--log",
-                     file(log),
-                     "--map",
-                     kMap,
-                     "--cache",
-                     file("cache"),
-                     "--init",
-                     known_start(),
-                     "--heading",
-                     heading,
-                     "-o",
-                     file("est.tum")}),
-                0)
-          << last_errors_;
-      const Ends end = ends("est.tum");
-      EXPECT_LT(end.estimate_m, 0.3) << heading << ", seed " << seed;
-      EXPECT_LT(end.estimate_m, end.odometry_m) << heading << ", seed " << seed;
     }
   }
 }
 
 TEST_F(LocalizeProgramsTest, WrongUsageIsTwoAndAFailureIsOneLine) {
-  simulate("log", 1, 2);
-  const Arguments common{"localize", "--log", file("log"), "--map", kMap, "-o", file("est.tum")};
+  const Drive drive = simulate("log", 1, 2);
+  const Arguments common{"localize", "--log", drive.log, "--map", kMap, "-o", file("est.tum")};
   const auto with = [&common](const Arguments& more) {
     Arguments all = common;
     all.insert(all.end(), more.begin(), more.end());
