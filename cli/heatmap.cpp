@@ -22,9 +22,9 @@
 #include "semview/picture/heat_picture.hpp"
 #include "semview/similarity/heat_map.hpp"
 #include "semview/similarity/prepared_observation.hpp"
-#include "semview/similarity/weight_matrix.hpp"
 #include "site_options.hpp"
 #include "verb.hpp"
+#include "weights_option.hpp"
 
 namespace semview::cli {
 namespace {
@@ -104,10 +104,10 @@ Status heatmap(const Options& options) {
   }
   SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   if (!options.npy.empty()) SEMVIEW_TRY_STATUS(io::check_output_file(options.npy));
-  SEMVIEW_TRY(const similarity::WeightMatrix weights,
-              similarity::read_weight_matrix(options.weights));
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
   SEMVIEW_TRY(const Observation observation, read(options.observation, site->profile().camera));
+  SEMVIEW_TRY(const similarity::WeightMatrix weights,
+              read_weights(options.weights, observation.classes, site->map().classes));
   SEMVIEW_TRY(const similarity::PreparedObservation prepared,
               similarity::PreparedObservation::build(
                   observation, weights, site->map().classes, site->profile().camera));
@@ -157,9 +157,7 @@ void add_heatmap_verb(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   add_site_options(*verb, options->site);
   add_observation_option(*verb, options->observation);
-  verb->add_option("--weights", options->weights, "Weight matrix")
-      ->type_name("FILE.csv")
-      ->required();
+  add_weights_option(*verb, options->weights)->required();
   verb->add_option("-o,--output", options->output, "Picture to write")
       ->type_name("FILE.png")
       ->required();

@@ -13,6 +13,7 @@
 #include "semview/geometry/angle.hpp"
 #include "semview/localization/initialization.hpp"
 #include "verb.hpp"
+#include "weights_option.hpp"
 
 namespace semview::cli {
 namespace {
@@ -184,11 +185,11 @@ void add_localize_options(CLI::App& verb, LocalizeOptions& options) {
       ->required();
   verb.add_option("--server", options.server, "Let this server score")
       ->type_name("tcp://HOST:PORT");
-  verb.add_option("--weights",
-                  options.weights,
-                  "Weight matrix (default: the map's own weights.csv, else the identity where the "
-                  "log's classes are the map's)")
-      ->type_name("FILE.csv");
+  add_weights_option(verb, options.weights)
+      ->description(
+          "Weight matrix, or `identity`: a class of the same name scores 1, every other 0 "
+          "(default: the map's own weights.csv, else `identity` where the log's classes are the "
+          "map's)");
   verb.add_option("-o,--out", options.output, "Estimated trajectory, TUM text")
       ->type_name("FILE.tum")
       ->required();

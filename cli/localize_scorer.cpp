@@ -2,19 +2,20 @@
 #include "localize_scorer.hpp"
 
 #include <chrono>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "client/lib/remote_maps.hpp"
 #include "client/lib/remote_score_source.hpp"
+#include "semview/core/log.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/service/shipped_weights.hpp"
 #include "semview/service/site.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "semview/similarity/weight_matrix.hpp"
+#include "weights_option.hpp"
 
 namespace semview::cli {
 namespace {
@@ -30,29 +31,31 @@ Result<ChosenWeights> choose_weights(const LocalizeOptions& options,
                                      const ClassTable& observed,
                                      const ClassTable& map) {
   if (!options.weights.empty()) {
-    SEMVIEW_TRY(similarity::WeightMatrix matrix, similarity::read_weight_matrix(options.weights));
+    SEMVIEW_TRY(similarity::WeightMatrix matrix, read_weights(options.weights, observed, map));
     Status fits = matrix.check(observed, map);
     if (!fits) return with_context(std::move(fits), options.weights);
     return ChosenWeights{std::move(matrix), options.weights};
   }
   const std::string shipped_name = options.map + ": weights.csv";
-  std::optional<Error> misfit;
+  std::string why_not = "the map has no weights.csv";
   if (!shipped_csv.empty()) {
     SEMVIEW_TRY(similarity::WeightMatrix matrix,
                 similarity::parse_weight_matrix(shipped_csv, shipped_name));
     const Status fits = matrix.check(observed, map);
     if (fits) return ChosenWeights{std::move(matrix), shipped_name};
-    misfit = fits.error();
+    why_not = fmt::format("{}: {}", shipped_name, fits.error().message);
   }
   similarity::WeightMatrix identity = similarity::WeightMatrix::identity(map);
-  if (identity.check(observed, map)) return ChosenWeights{std::move(identity), "identity"};
-  return fail(Error{ErrorCode::kInvalidArgument,
-                    misfit
-                        ? fmt::format("--weights is needed: {}: {}", shipped_name, misfit->message)
-                        : "--weights is needed: the log's classes are not the map's, and the map "
-                          "has no weights.csv",
-                    "--weights",
-                    "make a matrix with `semview weights init`"});
+  const Status same = identity.check(observed, map);
+  if (same) {
+    log_warning(fmt::format("weights: identity (only equal names score), for {}", why_not));
+    return ChosenWeights{std::move(identity), std::string(kIdentityWeights)};
+  }
+  return fail(Error{
+      ErrorCode::kInvalidArgument,
+      fmt::format("--weights is needed: {}, and not every class of the log is the map's", why_not),
+      "--weights",
+      same.error().hint});
 }
 
 Result<Scorer> open_in_process(const LocalizeOptions& options, const ClassTable& observed) {

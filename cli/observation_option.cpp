@@ -2,6 +2,7 @@
 #include "observation_option.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +11,22 @@
 #include "semview/io/run_log.hpp"
 
 namespace semview::cli {
+namespace {
+
+/// True for a run log, false for an observation folder.
+Result<bool> finds_run_log(const ObservationOption& option) {
+  const std::filesystem::path folder(option.folder);
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / "log.yaml", ignored)) return true;
+  if (std::filesystem::exists(folder / "observation.yaml", ignored)) return false;
+  return fail(Error{ErrorCode::kNotFound,
+                    fmt::format("{}: has neither observation.yaml nor log.yaml, expected an "
+                                "observation folder or a run log",
+                                option.folder),
+                    "--obs"});
+}
+
+}  // namespace
 
 void add_observation_option(CLI::App& verb, ObservationOption& option) {
   verb.add_option("--obs", option.folder, "Observation folder, or a run log with --frame")
@@ -18,17 +35,17 @@ void add_observation_option(CLI::App& verb, ObservationOption& option) {
   verb.add_option("--frame", option.frame, "Frame of the run log, from 0")->type_name("N");
 }
 
-Result<Observation> read(const ObservationOption& option, const PanoramaCamera& profile) {
+Result<ClassTable> read_observed_classes(const ObservationOption& option) {
+  SEMVIEW_TRY(const bool is_run_log, finds_run_log(option));
   const std::filesystem::path folder(option.folder);
-  std::error_code ignored;
-  const bool is_run_log = std::filesystem::exists(folder / "log.yaml", ignored);
-  if (!is_run_log && !std::filesystem::exists(folder / "observation.yaml", ignored)) {
-    return fail(Error{ErrorCode::kNotFound,
-                      fmt::format("{}: has neither observation.yaml nor log.yaml, expected an "
-                                  "observation folder or a run log",
-                                  option.folder),
-                      "--obs"});
-  }
+  SEMVIEW_TRY(const io::YamlNode document,
+              io::read_yaml(folder / (is_run_log ? "log.yaml" : "observation.yaml")));
+  SEMVIEW_TRY(io::ObservationSetup setup, io::parse_observation_setup(document));
+  return std::move(setup.classes);
+}
+
+Result<Observation> read(const ObservationOption& option, const PanoramaCamera& profile) {
+  SEMVIEW_TRY(const bool is_run_log, finds_run_log(option));
   if (!option.frame && !is_run_log) return io::read_observation(option.folder, profile);
   SEMVIEW_TRY(const io::RunLog log, io::read_run_log(option.folder));
   if (!option.frame || *option.frame >= log.frames.size()) {

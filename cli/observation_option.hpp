@@ -22,6 +22,10 @@ struct ObservationOption {
 
 void add_observation_option(CLI::App& verb, ObservationOption& option);
 
+/// The observer's vocabulary.
+/// @errors as `read`.
+Result<ClassTable> read_observed_classes(const ObservationOption& option);
+
 /// The observation, resampled to `profile`.
 /// @errors those of the readers; kInvalidArgument: a run log without --frame, or past its end.
 Result<Observation> read(const ObservationOption& option, const PanoramaCamera& profile);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "client/lib/remote_maps.hpp"
 #include "client/lib/remote_score_source.hpp"
 #include "observation_option.hpp"
 #include "pose_list.hpp"
@@ -18,6 +19,7 @@
 #include "semview/similarity/similarity_score_source.hpp"
 #include "site_options.hpp"
 #include "verb.hpp"
+#include "weights_option.hpp"
 
 namespace semview::cli {
 namespace {
@@ -100,7 +102,7 @@ struct Scorer {
   std::string engine;
 };
 
-Result<Scorer> open_remote(const Options& options, similarity::WeightMatrix weights) {
+Result<Scorer> open_remote(const Options& options, const ClassTable& observed) {
   client::ConnectionConfig config;
   config.endpoint = options.server;
   config.client_name = "semview score";
@@ -109,6 +111,10 @@ Result<Scorer> open_remote(const Options& options, similarity::WeightMatrix weig
     error.field = "--server";
     return fail(std::move(error));
   }
+  SEMVIEW_TRY(client::Connection connection, client::Connection::open(config));
+  SEMVIEW_TRY(const protocol::MapDescription map, client::get_map(connection, options.site.map));
+  SEMVIEW_TRY(similarity::WeightMatrix weights,
+              read_weights(options.weights, observed, map.classes));
   SEMVIEW_TRY(auto remote,
               client::RemoteScoreSource::open(config, options.site.map, std::move(weights)));
   Scorer scorer;
@@ -119,10 +125,12 @@ Result<Scorer> open_remote(const Options& options, similarity::WeightMatrix weig
   return scorer;
 }
 
-Result<Scorer> open_scorer(const Options& options, similarity::WeightMatrix weights) {
-  if (!options.server.empty()) return open_remote(options, std::move(weights));
+Result<Scorer> open_scorer(const Options& options, const ClassTable& observed) {
+  if (!options.server.empty()) return open_remote(options, observed);
   Scorer scorer;
   SEMVIEW_TRY(scorer.site, open_site(options.site));
+  SEMVIEW_TRY(similarity::WeightMatrix weights,
+              read_weights(options.weights, observed, scorer.site->map().classes));
   scorer.map_id = scorer.site->id();
   scorer.fingerprint = scorer.site->map().fingerprint;
   scorer.engine = scorer.site->engine().name;
@@ -184,8 +192,8 @@ void print_table(const ScoreRequest& request, const ScoreBatch& batch, const Opt
 Status score(const CLI::App& verb, const Options& options) {
   if (!options.server.empty()) SEMVIEW_TRY_STATUS(check_no_site_options(verb));
   SEMVIEW_TRY(const ScoreRequest request, request_of(options));
-  SEMVIEW_TRY(similarity::WeightMatrix weights, similarity::read_weight_matrix(options.weights));
-  SEMVIEW_TRY(const Scorer scorer, open_scorer(options, std::move(weights)));
+  SEMVIEW_TRY(const ClassTable observed, read_observed_classes(options.observation));
+  SEMVIEW_TRY(const Scorer scorer, open_scorer(options, observed));
   SEMVIEW_TRY(const Observation observation,
               read(options.observation, scorer.source->profile().camera));
   SEMVIEW_TRY_STATUS(scorer.source->set_observation(observation));
@@ -211,9 +219,7 @@ void add_score_verb(CLI::App& app, int& exit_code) {
   verb->add_option("--server", options->server, "Let this server score; MAP is the map's id there")
       ->type_name("tcp://HOST:PORT");
   add_observation_option(*verb, options->observation);
-  verb->add_option("--weights", options->weights, "Weight matrix")
-      ->type_name("FILE.csv")
-      ->required();
+  add_weights_option(*verb, options->weights)->required();
   verb->add_option("--pose", options->pose, "One pose")->type_name("X,Y,YAW_DEG");
   verb->add_option("--poses", options->poses, "Poses, one a line: x,y,yaw_deg")
       ->type_name("FILE.csv");

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "semview/io/output_path.hpp"
+#include "semview/io/run_log.hpp"
 #include "semview/io/text_file.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/vocabulary.hpp"
@@ -42,10 +43,24 @@ similarity::Vocabulary map_vocabulary(const map::SemanticMap& map) {
   return classes;
 }
 
+/// A run log brings the names that its observations use.
+Result<similarity::Vocabulary> read_vocabulary(const std::string& name) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(std::filesystem::path(name) / "log.yaml", ignored)) {
+    return similarity::load_vocabulary(name);
+  }
+  SEMVIEW_TRY(const io::RunLog log, io::read_run_log(name));
+  similarity::Vocabulary vocabulary;
+  for (const std::string& observed : log.setup.classes.names()) vocabulary.push_back({observed});
+  return vocabulary;
+}
+
 void print_unmatched(const similarity::WeightProposal& proposal) {
   if (!proposal.unmatched_map.empty()) {
-    fmt::print("no observed class speaks for these map classes, give them weights by hand:\n  {}\n",
-               fmt::join(proposal.unmatched_map, ", "));
+    fmt::print(
+        "no class of the vocabulary speaks for these map classes, give them weights by hand:\n  "
+        "{}\n",
+        fmt::join(proposal.unmatched_map, ", "));
   }
   if (!proposal.unmatched_observed.empty()) {
     fmt::print("{} observed classes match nothing on the map, they do not count:\n  {}\n",
@@ -57,14 +72,15 @@ void print_unmatched(const similarity::WeightProposal& proposal) {
 Status init(const Options& options) {
   SEMVIEW_TRY_STATUS(io::check_output_file(options.weights));
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
-  SEMVIEW_TRY(const similarity::Vocabulary observed,
-              similarity::load_vocabulary(options.vocabulary));
+  SEMVIEW_TRY(const similarity::Vocabulary observed, read_vocabulary(options.vocabulary));
   SEMVIEW_TRY(const similarity::WeightProposal proposal,
               similarity::propose_weights(observed, map_vocabulary(map)));
-  const std::string header =
-      fmt::format("# Rows: {}. Columns: map {}. Made by `semview weights init`; edit it freely.\n",
-                  std::filesystem::path(options.vocabulary).filename().string(),
-                  map.id);
+  const bool more_rows = proposal.matrix.observed_names().size() > observed.size();
+  const std::string header = fmt::format(
+      "# Rows: {}{}. Columns: map {}. Made by `semview weights init`; edit it freely.\n",
+      std::filesystem::path(options.vocabulary).filename().string(),
+      more_rows ? " and what else the map names" : "",
+      map.id);
   SEMVIEW_TRY_STATUS(io::write_text_file(options.weights, header + proposal.matrix.to_csv()));
   if (options.json) {
     fmt::print("{}\n",
@@ -89,8 +105,7 @@ Status check(const Options& options) {
               similarity::read_weight_matrix(options.weights));
   ClassTable observed;
   if (!options.vocabulary.empty()) {
-    SEMVIEW_TRY(const similarity::Vocabulary vocabulary,
-                similarity::load_vocabulary(options.vocabulary));
+    SEMVIEW_TRY(const similarity::Vocabulary vocabulary, read_vocabulary(options.vocabulary));
     observed = similarity::class_table(vocabulary);
   }
   if (Status status = weights.check(observed, map.classes); !status) {
@@ -138,13 +153,15 @@ void add_weights_verb(CLI::App& app, int& exit_code) {
       "init",
       "Write a starting matrix for a map by names, aliases and the synonyms that semview knows: "
       "soft matches between 0 and 1, 0.25 for walls, floors and ceilings, -1 for wall against "
-      "floor. Lists what it could not match.");
+      "floor. A class that only the map names gets a row as well. Lists what it could not match.");
   const auto init_options = std::make_shared<Options>();
   add_map(*init_verb, *init_options);
   init_verb
-      ->add_option("--vocabulary",
-                   init_options->vocabulary,
-                   "What the segmentation knows: ade20k150, or a file with one class name a line")
+      ->add_option(
+          "--vocabulary",
+          init_options->vocabulary,
+          "What the segmentation knows: ade20k150, a file with one class name a line, or a run "
+          "log for the names in it")
       ->capture_default_str();
   init_verb->add_option("-o,--output", init_options->weights, "CSV file to write")->required();
   init_verb->footer("Example: semview weights init maps/tutorial --vocabulary ade20k150 -o w.csv");
@@ -158,8 +175,9 @@ void add_weights_verb(CLI::App& app, int& exit_code) {
   check_options->vocabulary.clear();
   add_map(*check_verb, *check_options);
   check_verb->add_option("WEIGHTS", check_options->weights, "CSV file")->required();
-  check_verb->add_option(
-      "--vocabulary", check_options->vocabulary, "Also check the rows: ade20k150, or a file");
+  check_verb->add_option("--vocabulary",
+                         check_options->vocabulary,
+                         "Also check the rows: ade20k150, a file, or a run log");
   check_verb->footer("Example: semview weights check maps/tutorial w.csv --vocabulary ade20k150");
   check_verb->callback([check_options, &exit_code] { exit_code = report(check(*check_options)); });
 }

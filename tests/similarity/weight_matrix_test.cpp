@@ -99,6 +99,11 @@ TEST(WeightMatrixTest, IdentityIsOneOnTheDiagonalOnly) {
             "observed,a,b,none\na,1,0,0\nb,0,1,0\n");
 }
 
+TEST(WeightMatrixTest, IdentityOfTwoTablesIsOneWhereTheNamesAreEqual) {
+  EXPECT_EQ(WeightMatrix::identity(ClassTable({"lamp", "b"}), ClassTable({"a", "b"})).to_csv(),
+            "observed,a,b,none\nlamp,0,0,0\nb,0,1,0\n");
+}
+
 TEST(WeightMatrixTest, WrittenAndReadBackIsEqual) {
   const bool held = rc::check([] {
     Rng rng(*rc::gen::arbitrary<std::uint64_t>());

@@ -137,6 +137,22 @@ TEST(WeightProposalTest, AnAliasOfTheMapMatchesInFull) {
   EXPECT_THAT(proposal->unmatched_map, ElementsAre("thing"));
 }
 
+TEST(WeightProposalTest, AClassThatOnlyTheMapNamesGetsARowByTheSameRules) {
+  const Vocabulary map{{"wall"}, {"turret", {"spire"}}, {"floor"}, {"couch"}};
+  const auto proposal = propose_weights(Vocabulary{{"wall"}, {"sofa", {"couch"}}}, map);
+  ASSERT_TRUE(proposal);
+  const WeightMatrix& w = proposal->matrix;
+  EXPECT_THAT(w.observed_names(), ElementsAre("wall", "sofa", "turret", "floor", "couch"));
+  EXPECT_EQ(weight(w, "turret", "turret"), 1.0);
+  EXPECT_EQ(weight(w, "turret", "wall"), 0.0);
+  EXPECT_EQ(weight(w, "floor", "floor"), 0.25);
+  EXPECT_EQ(weight(w, "floor", "wall"), -1.0);
+  EXPECT_EQ(weight(w, "couch", "couch"), 1.0);
+  // Its own row is no reason to hide that the vocabulary knows nothing of it.
+  EXPECT_THAT(proposal->unmatched_map, ElementsAre("turret", "floor"));
+  EXPECT_THAT(proposal->unmatched_observed, IsEmpty());
+}
+
 TEST(ShippedWeightsTest, TheMatrixOfThe2017PaperHasItsStatedWeights) {
   const auto w = read_weight_matrix(SEMVIEW_SOURCE_DIR "/weights/paper2017_ade20k150.csv");
   ASSERT_TRUE(w);

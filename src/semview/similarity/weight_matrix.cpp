@@ -89,12 +89,12 @@ Result<WeightMatrix> WeightMatrix::build(std::vector<std::string> observed_names
                                          std::vector<Band> bands) {
   SEMVIEW_TRY_STATUS(check_names(observed_names, "observed classes"));
   SEMVIEW_TRY_STATUS(check_names(map_names, "map classes"));
-  if (observed_names.size() > kMaxClasses || map_names.size() > kMaxClasses + 1) {
+  if (observed_names.size() > kMaxWeightRows || map_names.size() > kMaxClasses + 1) {
     return fail(ErrorCode::kResourceExhausted,
                 fmt::format("weights: {} rows and {} columns, expected at most {} and {}",
                             observed_names.size(),
                             map_names.size(),
-                            kMaxClasses,
+                            kMaxWeightRows,
                             kMaxClasses + 1));
   }
   std::ranges::sort(bands, {}, &Band::elevation_min_deg);
@@ -106,16 +106,17 @@ Result<WeightMatrix> WeightMatrix::build(std::vector<std::string> observed_names
   return matrix;
 }
 
-WeightMatrix WeightMatrix::identity(const ClassTable& classes) {
+WeightMatrix WeightMatrix::identity(const ClassTable& observed, const ClassTable& map) {
   WeightMatrix matrix;
-  matrix.observed_names_.assign(classes.names().begin(), classes.names().end());
-  matrix.map_names_ = matrix.observed_names_;
+  matrix.observed_names_.assign(observed.names().begin(), observed.names().end());
+  matrix.map_names_.assign(map.names().begin(), map.names().end());
   matrix.map_names_.emplace_back(kNoneColumn);
   const std::size_t columns = matrix.map_names_.size();
   Band band;
   band.weights.assign(matrix.observed_names_.size() * columns, 0.0);
   for (std::size_t i = 0; i < matrix.observed_names_.size(); ++i) {
-    band.weights[i * columns + i] = 1.0;
+    const std::optional<ClassId> same = map.id(matrix.observed_names_[i]);
+    if (same) band.weights[i * columns + *same - 1U] = 1.0;
   }
   matrix.bands_.push_back(std::move(band));
   return matrix;
@@ -141,11 +142,12 @@ Status WeightMatrix::check(const ClassTable& observed, const ClassTable& map) co
     message += rows_missing.empty() ? "" : ";";
     message += " no column for map class " + columns_missing;
   }
-  return fail(
-      Error{ErrorCode::kFailedPrecondition,
-            std::move(message),
-            "weights",
-            "semview weights init MAP --vocabulary … writes a matrix with every row and column"});
+  return fail(Error{
+      ErrorCode::kFailedPrecondition,
+      std::move(message),
+      "weights",
+      "`semview weights init MAP --vocabulary V -o w.csv` writes a row for every class of V (give "
+      "the run log, for its own) and of the map, and every column"});
 }
 
 }  // namespace semview::similarity

@@ -20,6 +20,8 @@ inline constexpr std::string_view kNoneColumn = "none";
 
 inline constexpr std::size_t kMaxWeightFileBytes = std::size_t{8} << 20U;
 inline constexpr std::size_t kMaxElevationBands = 64;
+/// A vocabulary's names and a map's.
+inline constexpr std::size_t kMaxWeightRows = std::size_t{2} * kMaxClasses;
 
 /// Rows = observed class names, columns = map class names (and `none`), one matrix for each band
 /// of elevation; a matrix without bands has one from -90° to 90°.
@@ -47,7 +49,8 @@ class WeightMatrix {
                                     std::vector<Band> bands);
 
   /// 1 where the names are the same, else 0: the baseline of the paper.
-  static WeightMatrix identity(const ClassTable& classes);
+  static WeightMatrix identity(const ClassTable& observed, const ClassTable& map);
+  static WeightMatrix identity(const ClassTable& classes) { return identity(classes, classes); }
 
   std::span<const std::string> observed_names() const { return observed_names_; }
   /// As in the file, `none` included where it has it.

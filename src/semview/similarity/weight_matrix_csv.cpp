@@ -130,8 +130,8 @@ class TableReader {
       return wrong(fmt::format("more than {} elevation bands", kMaxElevationBands));
     }
     Rows& rows = bands_[range];
-    if (rows.names.size() >= kMaxClasses) {
-      return wrong(fmt::format("more than {} observed classes", kMaxClasses));
+    if (rows.names.size() >= kMaxWeightRows) {
+      return wrong(fmt::format("more than {} observed classes", kMaxWeightRows));
     }
     rows.names.push_back(cells[name_column()]);
     for (std::size_t i = name_column() + 1; i < cells.size(); ++i) {

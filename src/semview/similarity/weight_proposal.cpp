@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace semview::similarity {
@@ -39,25 +40,29 @@ Result<WeightProposal> propose_weights(std::span<const NamedClass> observed,
                                        const SynonymTable& synonyms) {
   std::vector<NamedClass> columns(map.begin(), map.end());
   columns.push_back({std::string(kNoneColumn)});
+  std::vector<NamedClass> rows(observed.begin(), observed.end());
+  std::ranges::copy_if(map, std::back_inserter(rows), [&](const NamedClass& named) {
+    return std::ranges::find(observed, named.name, &NamedClass::name) == observed.end();
+  });
   std::vector<std::string> observed_names;
   std::vector<std::string> map_names;
-  observed_names.reserve(observed.size());
+  observed_names.reserve(rows.size());
   map_names.reserve(columns.size());
-  for (const NamedClass& named : observed) observed_names.push_back(named.name);
+  for (const NamedClass& named : rows) observed_names.push_back(named.name);
   for (const NamedClass& named : columns) map_names.push_back(named.name);
 
   WeightMatrix::Band band;
-  std::vector<bool> row_matched(observed.size(), false);
+  std::vector<bool> row_matched(rows.size(), false);
   std::vector<bool> column_matched(columns.size(), false);
-  for (std::size_t i = 0; i < observed.size(); ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t j = 0; j < columns.size(); ++j) {
       // To thousandths: the file is for people, and 0.8 · 0.2 is not 0.16 in binary.
-      const double weight = std::round(weight_of(observed[i], columns[j], synonyms) * 1e3) / 1e3;
+      const double weight = std::round(weight_of(rows[i], columns[j], synonyms) * 1e3) / 1e3;
       band.weights.push_back(weight);
       if (weight <= 0.0) continue;
       // Seeing nothing tells a class from no other: `none` matches no row.
       if (j < map.size()) row_matched[i] = true;
-      column_matched[j] = true;
+      if (i < observed.size()) column_matched[j] = true;
     }
   }
   SEMVIEW_TRY(WeightMatrix matrix,

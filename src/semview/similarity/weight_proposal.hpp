@@ -15,12 +15,16 @@ namespace semview::similarity {
 
 struct WeightProposal {
   WeightMatrix matrix;
-  /// Classes without a positive weight: these say nothing yet, and want a look.
+  /// Classes of the vocabulary that speak for none of the map's: these say nothing yet, and want a
+  /// look.
   std::vector<std::string> unmatched_observed;
+  /// Classes of the map that none of the vocabulary's speaks for.
   std::vector<std::string> unmatched_map;
 };
 
-/// Rows are the observed classes, columns those of the map and `none`. Two classes of one name, or
+/// Rows are the classes of the vocabulary, `observed`, and after them those of the map whose names
+/// it does not have: a simulated robot, or a network trained for the building, names what it sees
+/// as the map does. Columns are the map's classes and `none`. Two classes of one name, or
 /// of which one's name or alias is one of the other's, match in full: with their significance,
 /// which is 1 unless the table has another. Otherwise the table's score of any of their names
 /// counts.
