@@ -173,6 +173,7 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
               robot::play(log, scorer.source->profile().camera, localizer, hooks));
   SEMVIEW_TRY_STATUS(write_outputs(options, drive, localizer.particles()));
   print_summary(options, scorer, drive);
+  if (scorer.site) log_unusable_records(*scorer.site, options.site.cache_directory);
   return {};
 }
 

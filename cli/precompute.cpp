@@ -203,6 +203,7 @@ Result<int> run(const Options& options) {
   line.finish();
   if (!result) return fail(std::move(result).error());
   show_end(*site, *result, on_terminal);
+  log_unusable_records(*site, site_options.cache_directory);
   return result->end == service::PrecomputeEnd::kComplete ? 0 : kExitFailed;
 }
 

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "semview/cache/lmdb_store.hpp"
 #include "semview/core/byte_size.hpp"
+#include "semview/core/log.hpp"
 #include "semview/geometry/angle.hpp"
 #include "verb.hpp"
 
@@ -83,6 +85,21 @@ Result<service::SiteConfig> site_config(const SiteOptions& options) {
 Result<std::shared_ptr<service::Site>> open_site(const SiteOptions& options) {
   SEMVIEW_TRY(const service::SiteConfig config, site_config(options));
   return service::Site::open(options.map, config);
+}
+
+void log_unusable_records(const service::Site& site, const std::string& cache_directory) {
+  if (site.tiers().store == nullptr) return;
+  const cache::StoreCounters disk = site.tiers().store->counters();
+  const std::uint64_t unusable = disk.damaged + disk.foreign + disk.unknown;
+  if (unusable == 0) return;
+  log_warning(fmt::format(
+      "cache {}: {} records could not be used, and their views were cast again: {} damaged, {} of "
+      "other keys, {} of an unknown format",
+      cache_directory,
+      unusable,
+      disk.damaged,
+      disk.foreign,
+      disk.unknown));
 }
 
 }  // namespace semview::cli

@@ -44,4 +44,8 @@ Result<service::SiteConfig> site_config(const SiteOptions& options);
 /// Reads the options and opens the map.
 Result<std::shared_ptr<service::Site>> open_site(const SiteOptions& options);
 
+/// A line on the log if the cache directory held records that could not be used; call it at the
+/// end.
+void log_unusable_records(const service::Site& site, const std::string& cache_directory);
+
 }  // namespace semview::cli

@@ -63,6 +63,19 @@ Result<service::PrecomputeRegion> region_of(const v1::StartPrecomputeRequest& wi
   return region;
 }
 
+void to_wire(const cache::StoreCounters& counters, v1::CacheTier* wire) {
+  wire->set_hits(counters.hits);
+  wire->set_misses(counters.misses);
+  wire->set_stored(counters.stored);
+  wire->set_evicted(counters.evicted);
+  wire->set_refused(counters.refused);
+  wire->set_damaged(counters.damaged);
+  wire->set_foreign(counters.foreign);
+  wire->set_unknown(counters.unknown);
+  wire->set_bytes(counters.bytes);
+  wire->set_storing(counters.storing);
+}
+
 }  // namespace
 
 protocol::JobProgress progress_of(const Services& services, const service::JobStatus& status) {
@@ -125,10 +138,14 @@ Result<Plan> plan_get_stats(Services& services, const Request& request) {
   }
   if (const auto sites = services.maps.sites(); !sites.empty()) {
     // All sites share one cache.
-    const cache::ViewCacheCounters views = sites.front()->tiers().cache->counters();
+    const service::SharedTiers& tiers = sites.front()->tiers();
+    const cache::ViewCacheCounters views = tiers.cache->counters();
     reply.set_views_cast(views.cast);
     reply.set_views_from_memory(views.memory.hits);
     reply.set_views_from_disk(views.disk.hits);
+    reply.set_views_awaited(views.waits);
+    to_wire(views.memory, reply.mutable_memory());
+    if (tiers.store != nullptr) to_wire(views.disk, reply.mutable_disk());
   }
   reply.set_observations(services.observations.counters().observations);
   return answer(reply.SerializeAsString());

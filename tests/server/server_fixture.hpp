@@ -12,6 +12,7 @@
 #include "semview/protocol/view_wire.hpp"
 #include "semview/v1/jobs.pb.h"
 #include "server.hpp"
+#include "server/held_view.hpp"
 #include "server/raw_client.hpp"
 #include "server/room.hpp"
 #include "support/eventually.hpp"
@@ -58,6 +59,17 @@ class ServerFixture : public ::testing::Test {
     request.set_observation_id(observation_id);
     return request;
   }
+
+  static v1::GetViewsRequest view_request(const CellIndex& cell) {
+    v1::GetViewsRequest request;
+    request.set_map_id("room");
+    request.mutable_cells()->add_ix(cell.ix);
+    request.mutable_cells()->add_iy(cell.iy);
+    return request;
+  }
+
+  /// A cell whose view no observation of ours needs.
+  static constexpr CellIndex kQuietCell{5, 5};
 
   /// The server answers as it should.
   void expect_alive() const {

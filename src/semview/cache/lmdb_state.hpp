@@ -16,12 +16,24 @@
 #include "semview/cache/record.hpp"
 
 namespace semview::cache {
+namespace detail {
+
+enum class RecordState { kSound, kDamaged, kForeign, kUnknown };
+
+}  // namespace detail
 
 struct LmdbStore::State {
   State(LmdbConfig the_config, detail::DirectoryLock the_lock, detail::Environment the_environment)
       : config(std::move(the_config)),
         lock(std::move(the_lock)),
         environment(std::move(the_environment)) {}
+
+  /// A record that cannot be served.
+  void count(detail::RecordState found) {
+    if (found == detail::RecordState::kDamaged) ++damaged;
+    if (found == detail::RecordState::kForeign) ++foreign;
+    if (found == detail::RecordState::kUnknown) ++unknown;
+  }
 
   LmdbConfig config;
   detail::DirectoryLock lock;
@@ -44,8 +56,6 @@ namespace detail {
 /// Digest and cell; keys in byte order are cells row by row.
 using RecordKey = std::array<std::byte, 24>;
 RecordKey record_key(const Fingerprint& keyspace, const CellIndex& cell);
-
-enum class RecordState { kSound, kDamaged, kForeign, kUnknown };
 
 /// Checks all but the payload's content. `record` is set when the state is `kSound`.
 RecordState inspect(std::span<const std::byte> key,

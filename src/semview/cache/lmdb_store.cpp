@@ -126,10 +126,7 @@ std::vector<SharedView> LmdbStore::get(const Keyspace& keyspace, std::span<const
       found = RecordState::kDamaged;
     }
     ++state_->misses;
-    if (code == MDB_NOTFOUND) continue;
-    if (found == RecordState::kDamaged) ++state_->damaged;
-    if (found == RecordState::kForeign) ++state_->foreign;
-    if (found == RecordState::kUnknown) ++state_->unknown;
+    if (code != MDB_NOTFOUND) state_->count(found);
   }
   return views;
 }
@@ -145,10 +142,14 @@ std::vector<CellIndex> LmdbStore::missing(const Keyspace& keyspace,
     MDB_val value{};
     std::optional<Record> record;
     if (!transaction ||
-        mdb_get(transaction->get(), state_->environment.records(), &key_value, &value) != 0 ||
-        detail::inspect(key, detail::bytes_of(value), record) != RecordState::kSound) {
+        mdb_get(transaction->get(), state_->environment.records(), &key_value, &value) != 0) {
       missing.push_back(cell);
+      continue;
     }
+    const RecordState found = detail::inspect(key, detail::bytes_of(value), record);
+    if (found == RecordState::kSound) continue;
+    state_->count(found);
+    missing.push_back(cell);
   }
   return missing;
 }

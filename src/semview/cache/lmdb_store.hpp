@@ -76,8 +76,8 @@ class LmdbStore final : public ViewStore {
                 const std::string& map_id,
                 std::span<const CellIndex> map_cells);
 
-  /// The cells that have no sound record, in the order given; reads and checks every record that is
-  /// there.
+  /// The cells that have no sound record, in the order given; reads, checks and counts
+  /// every record that is there.
   std::vector<CellIndex> missing(const Keyspace& keyspace, std::span<const CellIndex> cells);
 
   /// `put` in two steps, so that the first can run on several threads.
