@@ -193,8 +193,8 @@ Status read_config(const std::filesystem::path& path, Options* options) {
 }
 
 bool is_loopback(const std::string& endpoint) {
-  return endpoint.starts_with("tcp://127.") || endpoint.starts_with("tcp://localhost:") ||
-         endpoint.starts_with("tcp://lo:") || endpoint.starts_with("tcp://[::1]:");
+  return endpoint.starts_with("tcp://127.") || endpoint.starts_with("tcp://lo:") ||
+         endpoint.starts_with("tcp://[::1]:");
 }
 
 }  // namespace semview::server

@@ -36,7 +36,8 @@ std::uint16_t port_of(std::string_view endpoint) {
 std::string hint_of(int zmq_error) {
   if (zmq_error == EADDRINUSE) return "another server may be running there";
   if (zmq_error == EADDRNOTAVAIL || zmq_error == ENODEV) {
-    return "this machine has no such address; tcp://0.0.0.0:PORT is all that it has";
+    return "ADDRESS must be one of this machine's, in digits: 127.0.0.1 lets only this machine in; "
+           "0.0.0.0 lets in every machine that reaches it, and there is no authentication yet";
   }
   return "";
 }
@@ -56,6 +57,13 @@ Status check_endpoint(const std::string& endpoint) {
                     "--bind"});
 }
 
+/// ZeroMQ binds to addresses and interfaces only; of names it knows none.
+std::string without_name(const std::string& endpoint) {
+  constexpr std::string_view kNamed = "tcp://localhost:";
+  if (!endpoint.starts_with(kNamed)) return endpoint;
+  return "tcp://127.0.0.1:" + endpoint.substr(kNamed.size());
+}
+
 }  // namespace
 
 struct Sockets::Parts {
@@ -70,7 +78,7 @@ struct Sockets::Parts {
     if (bell >= 0) ::close(bell);
   }
 
-  void bind_requests(const SocketConfig& config) {
+  void bind_requests(const std::string& address, const SocketConfig& config) {
     const auto largest = static_cast<std::int64_t>(config.max_message_bytes * kCutFactor);
     router.set(zmq::sockopt::maxmsgsize, largest);
     router.set(zmq::sockopt::linger, kLinger_ms);
@@ -78,7 +86,7 @@ struct Sockets::Parts {
     router.set(zmq::sockopt::rcvhwm, kMessagesInSocket);
     // Without it replies to clients that are gone or do not read vanish uncounted.
     router.set(zmq::sockopt::router_mandatory, 1);
-    router.bind(config.bind);
+    router.bind(address);
     endpoint = last_endpoint(router);
   }
 
@@ -93,6 +101,7 @@ struct Sockets::Parts {
 
 Result<std::unique_ptr<Sockets>> Sockets::bind(const SocketConfig& config) {
   SEMVIEW_TRY_STATUS(check_endpoint(config.bind));
+  const std::string address = without_name(config.bind);
   const std::string events_port =
       config.events_port == 0 ? "*" : std::to_string(config.events_port);
   std::string option = fmt::format("--bind {}", config.bind);
@@ -100,11 +109,10 @@ Result<std::unique_ptr<Sockets>> Sockets::bind(const SocketConfig& config) {
     auto parts = std::make_unique<Parts>();
     parts->bell = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     if (parts->bell < 0) return fail(ErrorCode::kResourceExhausted, "no file descriptor left");
-    parts->bind_requests(config);
+    parts->bind_requests(address, config);
     if (config.events) {
       option = fmt::format("--events-port {}", events_port);
-      parts->bind_events(
-          fmt::format("{}:{}", config.bind.substr(0, config.bind.rfind(':')), events_port));
+      parts->bind_events(fmt::format("{}:{}", address.substr(0, address.rfind(':')), events_port));
     }
     return std::unique_ptr<Sockets>(new Sockets(std::move(parts)));
   } catch (const zmq::error_t& error) {

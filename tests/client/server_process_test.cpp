@@ -143,6 +143,20 @@ TEST_F(ServerProcessTest, AnAddressThatIsTakenIsToldBeforeAnyMapIsLoaded) {
   EXPECT_NE(errors_.find("--events-port " + taken), std::string::npos) << errors_;
 }
 
+TEST_F(ServerProcessTest, LocalhostIsTheLoopbackAddressAndOfOtherNamesAnAddressIsAsked) {
+  const auto server = serve({"--map", room_.string(), "--bind", "tcp://localhost:*"});
+  EXPECT_TRUE(endpoint_.starts_with("tcp://127.0.0.1:")) << endpoint_;
+  client::Connection connection = connect();
+  EXPECT_TRUE(client::list_maps(connection));
+  EXPECT_EQ(server->errors().find("no authentication"), std::string::npos) << server->errors();
+  for (const char* const elsewhere : {"tcp://no-such-host:*", "tcp://192.0.2.1:*"}) {
+    EXPECT_EQ(fail_to_serve({"--map", room_.string(), "--bind", elsewhere}), 1);
+    EXPECT_NE(errors_.find("127.0.0.1 lets only this machine in"), std::string::npos) << errors_;
+    // Nobody is sent to all interfaces unwarned.
+    EXPECT_NE(errors_.find("no authentication"), std::string::npos) << errors_;
+  }
+}
+
 TEST_F(ServerProcessTest, TheEventsComeFromThePortThatWasNamed) {
   // A port that was free a moment ago.
   const auto first = serve({"--map", room_.string(), "--bind", "tcp://127.0.0.1:*"});
