@@ -86,6 +86,21 @@ def _poses(poses):
     return views_pb2.Poses(x_m=array[:, 0], y_m=array[:, 1], yaw_rad=array[:, 2])
 
 
+def _labels(labels, classes):
+    """Class ids as uint8; what numpy would turn into another id without a word is refused."""
+    array = np.asarray(labels)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"labels of type {array.dtype}; expected integers, class ids")
+    known = (array >= 0) & (array <= len(classes)) | (array == UNKNOWN)
+    if not known.all():
+        row, column = np.argwhere(~known)[0]
+        raise ValueError(
+            f"label {array[row, column]} at row {row}, column {column}; expected 0, an id of the "
+            f"{len(classes)} classes (1 to {len(classes)}), or {UNKNOWN} for unknown"
+        )
+    return np.ascontiguousarray(array, dtype=np.uint8)
+
+
 def _similarity(sums, scale, pixels):
     similarity = sums / (float(scale) * float(pixels))
     similarity[sums == NO_VIEW] = np.nan
@@ -139,7 +154,8 @@ class Server:
         return Map(self.connection, map_id)
 
     def stats(self):
-        """Counts since the server's start, as the message GetStatsReply."""
+        """Counts since the server's start, as the message GetStatsReply: its `memory` and `disk` tell
+        of the tiers of the view cache, damaged records and whether it still stores among them."""
         return self.connection.call("GetStats", jobs_pb2.GetStatsRequest(), jobs_pb2.GetStatsReply)
 
     def close(self):
@@ -237,7 +253,7 @@ class Map:
     def set_observation(self, labels, classes=None, weights_csv="") -> "Observation":
         """What a camera saw, to score poses against.
 
-        labels       (rows, columns) ids of `classes`; UNKNOWN and 0 are not scored
+        labels       (rows, columns) integers, ids of `classes`; UNKNOWN and 0 are not scored
         classes      the observer's class names, the first has id 1; None: the map's own
         weights_csv  a weight matrix (docs/formats/weights.md); "" gives 1 for equal names, else 0
         """
@@ -267,11 +283,11 @@ class Observation:
     """An observation that the server holds; sent again by itself when the server has lost it."""
 
     def __init__(self, of_map, labels, classes, weights_csv):
-        array = np.ascontiguousarray(labels, dtype=np.uint8)
-        if array.shape != (of_map.rows, of_map.columns):
+        if np.shape(labels) != (of_map.rows, of_map.columns):
             raise ValueError(
-                f"labels of shape {array.shape}; expected {(of_map.rows, of_map.columns)}"
+                f"labels of shape {np.shape(labels)}; expected {(of_map.rows, of_map.columns)}"
             )
+        array = _labels(labels, classes)
         self._map = of_map
         self._request = scores_pb2.SetObservationRequest(
             map_id=of_map.id,

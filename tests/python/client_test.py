@@ -128,6 +128,24 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(scores.sums[2], semview.NO_VIEW)
         self.assertTrue(np.isnan(scores.similarity[2]))
 
+    def test_labels_that_are_no_ids_of_the_classes_are_refused(self):
+        (view,) = self.map.views([self.pose])
+        beyond = len(self.map.classes) + 1
+        for wrong in (257, 1000, -1, beyond, 254):
+            labels = view.labels.astype(np.int64)
+            labels[3, 5] = wrong
+            with self.assertRaisesRegex(ValueError, f"label {wrong} at row 3, column 5"):
+                self.map.set_observation(labels)
+        with self.assertRaisesRegex(ValueError, "float64; expected integers"):
+            self.map.set_observation(view.labels + 0.5)
+        with self.assertRaisesRegex(ValueError, "bool; expected integers"):
+            self.map.set_observation(view.labels > 0)
+        with self.assertRaisesRegex(ValueError, "label 2 at row"):
+            self.map.set_observation(np.full(view.labels.shape, 2), classes=["wall"])
+        labels = view.labels.astype(np.int64)
+        labels[3, 5] = semview.UNKNOWN
+        self.assertGreater(self.map.set_observation(labels).observed_pixels, 0)
+
     def test_the_score_is_the_share_of_equal_pixels(self):
         """Equation (1) with the identity as weights, written out."""
         x, y, _ = self.pose
@@ -165,7 +183,10 @@ class ClientTest(unittest.TestCase):
         self.assertGreater(last.total_cells, 0)
         (view,) = self.map.views([self.pose])
         self.assertIsNotNone(view.labels)
-        self.assertGreater(self.server.stats().requests, 0)
+        stats = self.server.stats()
+        self.assertGreater(stats.requests, 0)
+        self.assertGreaterEqual(stats.disk.stored, last.cast_cells)
+        self.assertEqual((stats.disk.damaged, stats.disk.storing), (0, True))
 
     def test_errors_name_code_and_field(self):
         with self.assertRaises(semview.SemviewError) as caught:
