@@ -24,6 +24,9 @@ constexpr int kReconnectIntervalMax_ms = 500;
 // A peer that vanished without a word is noticed after this.
 constexpr int kHeartbeatInterval_ms = 1000;
 constexpr int kHeartbeatTimeout_ms = 3000;
+/// A question whether the server is there is given this long, or `timeout`, before the line is
+/// renewed.
+constexpr Milliseconds kProbeAge{1000};
 /// Replies are at most this large: the protocol's own limit of a protobuf message.
 constexpr std::int64_t kMaxReplyBytes = std::int64_t{1} << 31U;
 
@@ -73,11 +76,13 @@ class Connection::Line {
 
   Result<std::string> call(std::string_view method, std::string_view body, Repeat repeat) {
     const auto deadline = SteadyClock::now() + config_.timeout;
+    probe_sent_.reset();
     const int attempts = repeat == Repeat::kSafe ? config_.attempts : 1;
     for (int attempt = 1;; ++attempt) {
       const bool last = attempt >= attempts;
       send(method, body, deadline);
       Result<std::optional<Reply>> reply = wait_for_reply(deadline);
+      if (!reply && reply.error().code == ErrorCode::kDeadlineExceeded) return fail(too_late());
       if (!reply) return fail(std::move(reply).error());
       if (!*reply) {
         // The line broke while the request was under way.
@@ -96,6 +101,29 @@ class Connection::Line {
       }
       rest(pause);
     }
+  }
+
+  bool answers(Milliseconds patience) {
+    const auto until = SteadyClock::now() + patience;
+    if (probe_sent_ && SteadyClock::now() - *probe_sent_ > std::max(config_.timeout, kProbeAge)) {
+      // The network may be back while the system still waits to try the old line again.
+      connect();
+      probe_sent_.reset();
+    }
+    if (!probe_sent_) {
+      probe_sent_ = SteadyClock::now();
+      send("Hello", "", *probe_sent_ + config_.timeout);
+    }
+    const Result<std::optional<Reply>> reply = wait_for_reply(until);
+    // Nothing yet: the question stays under way.
+    if (!reply && reply.error().code == ErrorCode::kDeadlineExceeded) return false;
+    probe_sent_.reset();
+    if (reply && *reply) {
+      server_epoch_ = (*reply)->header.server_epoch();
+      return true;
+    }
+    connect();
+    return false;
   }
 
  private:
@@ -139,10 +167,11 @@ class Connection::Line {
   }
 
   /// The reply to the last request; `nullopt`: the line broke before it came.
+  /// @errors kDeadlineExceeded: neither happened in time; kDataLoss: a reply that cannot be read.
   Result<std::optional<Reply>> wait_for_reply(SteadyClock::time_point deadline) {
     for (;;) {
       const auto left = deadline - SteadyClock::now();
-      if (left <= SteadyClock::duration::zero()) return fail(too_late());
+      if (left <= SteadyClock::duration::zero()) return fail(ErrorCode::kDeadlineExceeded, "");
       std::array<zmq::pollitem_t, 2> items = {zmq::pollitem_t{socket_.handle(), 0, ZMQ_POLLIN, 0},
                                               zmq::pollitem_t{monitor_.handle(), 0, ZMQ_POLLIN, 0}};
       poll(items.data(), items.size(), std::chrono::ceil<Milliseconds>(left));
@@ -220,6 +249,7 @@ class Connection::Line {
   int monitors_ = 0;
   bool connected_ = false;
   std::uint64_t request_id_ = 0;
+  std::optional<SteadyClock::time_point> probe_sent_;  ///< the last request asks only for a sign
   std::uint64_t server_epoch_ = 0;
 };
 
@@ -249,6 +279,14 @@ Result<std::string> Connection::call(std::string_view method,
     return line_->call(method, body, repeat);
   } catch (const zmq::error_t& error) {
     return fail(ErrorCode::kUnavailable, fmt::format("{}: {}", config().endpoint, error.what()));
+  }
+}
+
+bool Connection::answers(std::chrono::milliseconds patience) {
+  try {
+    return line_->answers(patience);
+  } catch (const zmq::error_t&) {
+    return false;
   }
 }
 

@@ -51,6 +51,11 @@ class Connection {
   /// kDataLoss: a reply that cannot be read.
   Result<std::string> call(std::string_view method, std::string_view body, Repeat repeat);
 
+  /// Whether the server answers at all, waiting no longer than `patience`; for callers that must go
+  /// on while it is away. The question stays under way from one call to the next, so an answer that
+  /// takes longer than `patience` counts when it is asked again.
+  bool answers(std::chrono::milliseconds patience);
+
   /// Which start of the server answered last; 0 before the first reply. What a server kept for a
   /// client (observations, jobs) is gone when this changes.
   std::uint64_t server_epoch() const;

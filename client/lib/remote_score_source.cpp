@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/lib/remote_score_source.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "client/lib/remote_maps.hpp"
-#include "client/lib/typed_call.hpp"
+#include "semview/protocol/envelope.hpp"
 #include "semview/protocol/map_wire.hpp"
 #include "semview/protocol/score_wire.hpp"
 
 namespace semview::client {
+namespace {
+
+/// How long a server that was lost is waited for at each call.
+constexpr std::chrono::milliseconds kPatienceOfTheLost{100};
+
+}  // namespace
 
 Result<std::unique_ptr<RemoteScoreSource>> RemoteScoreSource::open(
     const ConnectionConfig& config, const std::string& map_id, similarity::WeightMatrix weights) {
@@ -45,10 +53,25 @@ Status RemoteScoreSource::set_observation(const Observation& observation) {
   return send_observation();
 }
 
+/// @errors kUnavailable: the server was lost, and is not back.
+Status RemoteScoreSource::reach() {
+  const ConnectionConfig& config = connection_.config();
+  if (lost_) lost_ = !connection_.answers(std::min(config.timeout, kPatienceOfTheLost));
+  if (!lost_) return {};
+  return fail(ErrorCode::kUnavailable, fmt::format("no answer from {} yet", config.endpoint));
+}
+
+Result<std::string> RemoteScoreSource::call(std::string_view method, std::string_view body) {
+  SEMVIEW_TRY_STATUS(reach());
+  Result<std::string> reply = connection_.call(method, body, Repeat::kSafe);
+  lost_ = !reply && (reply.error().code == ErrorCode::kUnavailable ||
+                     reply.error().code == ErrorCode::kDeadlineExceeded);
+  return reply;
+}
+
 Status RemoteScoreSource::send_observation() {
   observation_id_.clear();
-  SEMVIEW_TRY(const std::string body,
-              connection_.call("SetObservation", *observation_body_, Repeat::kSafe));
+  SEMVIEW_TRY(const std::string body, call("SetObservation", *observation_body_));
   SEMVIEW_TRY(const auto reply, protocol::parse<v1::SetObservationReply>(body, "reply"));
   observation_id_ = reply.observation_id();
   return {};
@@ -69,11 +92,14 @@ Result<ScoreBatch> RemoteScoreSource::score(const ScoreRequest& request) {
       sent_now = true;
     }
     wire.set_observation_id(observation_id_);
-    Result<v1::ScoreReply> reply = typed_call<v1::ScoreReply>(connection_, "Score", wire);
-    if (reply) return protocol::from_wire(*reply, request);
+    const Result<std::string> reply = call("Score", wire.SerializeAsString());
+    if (reply) {
+      SEMVIEW_TRY(const auto scores, protocol::parse<v1::ScoreReply>(*reply, "reply"));
+      return protocol::from_wire(scores, request);
+    }
     const bool forgotten =
         reply.error().code == ErrorCode::kNotFound && reply.error().field == "observation_id";
-    if (!forgotten || sent_now) return fail(std::move(reply).error());
+    if (!forgotten || sent_now) return fail(reply.error());
     // Restarted, or dropped in favour of others.
     observation_id_.clear();
   }

@@ -16,8 +16,9 @@ namespace semview::client {
 /// Scores poses against one map of a server, with the same numbers as in-process.
 ///
 /// Keeps the current observation: when the server was restarted or has dropped it, `score` sends
-/// it again by itself. When the server cannot be reached, calls fail with kUnavailable or
-/// kDeadlineExceeded after `config.timeout`, and later calls find it again.
+/// it again by itself. When the server cannot be reached, a call fails with kUnavailable or
+/// kDeadlineExceeded after `config.timeout`, and those after it at once (0.1 s), so that a robot is
+/// not held up at every frame; the first answer ends that.
 class RemoteScoreSource final : public ScoreSource {
  public:
   /// Asks the server for the map.
@@ -39,12 +40,15 @@ class RemoteScoreSource final : public ScoreSource {
   RemoteScoreSource(Connection connection,
                     protocol::MapDescription map,
                     const similarity::WeightMatrix& weights);
+  Status reach();
+  Result<std::string> call(std::string_view method, std::string_view body);
   Status send_observation();
 
   Connection connection_;
   const protocol::MapDescription map_;
   const std::string weights_csv_;
   std::optional<std::string> observation_body_;  ///< as sent, to repeat it
+  bool lost_ = false;                            ///< the last call got no answer in time
   std::string observation_id_;                   ///< empty: the server does not have it
 };
 

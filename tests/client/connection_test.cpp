@@ -164,6 +164,21 @@ TEST_F(ConnectionToFakeTest, ASlowServerIsNotAskedTwice) {
   EXPECT_FALSE(receive());
 }
 
+TEST_F(ConnectionToFakeTest, ASignThatTakesLongerThanThePatienceIsSeenAtTheNextQuestion) {
+  auto connection = Connection::open(config_);
+  constexpr std::chrono::milliseconds kPatience{1};
+  EXPECT_FALSE(connection->answers(kPatience));
+  const auto got = receive();
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->header.method(), "Hello");
+  EXPECT_FALSE(connection->answers(kPatience));
+  reply(*got, got->header.request_id());
+  EXPECT_TRUE(semview::testing::eventually([&] { return connection->answers(kPatience); }));
+  // One question was under way all the time.
+  router_->set(zmq::sockopt::rcvtimeo, 0);
+  EXPECT_FALSE(receive());
+}
+
 TEST_F(ConnectionToFakeTest, AReplyToAnotherRequestIsPassedOver) {
   auto connection = Connection::open(config_);
   auto answer = ask(*connection, Repeat::kSafe);

@@ -5,12 +5,14 @@
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
+#include "support/eventually.hpp"
 
 namespace semview::test {
 namespace {
 
 using client::RemoteScoreSource;
 using client::RemoteViewSource;
+using semview::testing::eventually;
 
 class RemoteSourceTest : public ClientFixture {
  protected:
@@ -126,6 +128,28 @@ TEST_F(RemoteSourceTest, WithoutAServerCallsFailAndLaterOnesRecover) {
   start();
   Result<ScoreBatch> remote = fail(ErrorCode::kUnknown, "");
   for (int i = 0; i < 100 && !remote; ++i) remote = (*source)->score(request);
+  ASSERT_TRUE(remote) << remote.error().message;
+  expect_equal(*remote, in_process(request));
+}
+
+TEST_F(RemoteSourceTest, AServerThatIsLostIsWaitedForOnceAndThenOnlyAskedBriefly) {
+  using Seconds = std::chrono::duration<double>;
+  constexpr double kTimeout_s = 3.0;
+  const auto source =
+      RemoteScoreSource::open(config(1000 * static_cast<int>(kTimeout_s)), "room", weights());
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  const ScoreRequest request{many_poses(50), HeadingMode::kCompass, false};
+  stop();
+  EXPECT_EQ((*source)->set_observation(observation()).error().code, ErrorCode::kUnavailable);
+  const auto start_of_loss = std::chrono::steady_clock::now();
+  for (int frame = 0; frame < 8; ++frame) {
+    EXPECT_EQ((*source)->set_observation(observation()).error().code, ErrorCode::kUnavailable);
+  }
+  EXPECT_LT(Seconds(std::chrono::steady_clock::now() - start_of_loss).count(), kTimeout_s)
+      << "eight frames together wait less than one did before";
+  start();
+  ASSERT_TRUE(eventually([&] { return (*source)->set_observation(observation()).has_value(); }));
+  const auto remote = (*source)->score(request);
   ASSERT_TRUE(remote) << remote.error().message;
   expect_equal(*remote, in_process(request));
 }
