@@ -19,25 +19,30 @@ TEST_F(LoadTest, ExpiredRequestsAreAnsweredAndNotBegun) {
   config.workers = 1;
   start(config, clock_);
   RawClient client(server_->endpoint());
-  const std::string id = set_observation(client);
-  // While the one worker is busy with the first, time passes for the second.
+  const std::string body = score_request(set_observation(client), 100).SerializeAsString();
   v1::RequestHeader hurried = RawClient::header("Score", 2);
   hurried.set_deadline_ms(100);
-  client.send(RawClient::header("Score", 1), score_request(id, 200'000).SerializeAsString());
-  client.send(hurried, score_request(id, 1).SerializeAsString());
-  ASSERT_TRUE(eventually([this] { return server_->counters().in_flight >= 2; }));
+  hurried.set_client_name("hurried");
+  const auto work_of_hurried = [this] { return server_->counters().cells_by_client["hurried"]; };
+  // While the one worker is busy with another request, time passes for this one.
+  HeldView held(*site_, kQuietCell);
+  RawClient other(server_->endpoint());
+  other.send(RawClient::header("GetViews"), view_request(kQuietCell).SerializeAsString());
+  ASSERT_TRUE(eventually([this] { return site_->tiers().cache->counters().waits == 1; }));
+  client.send(hurried, body);
+  ASSERT_TRUE(eventually([this] { return server_->counters().in_flight == 2; }));
   clock_.advance(milliseconds(101));
-  bool expired = false;
-  for (int i = 0; i < 2; ++i) {
-    const auto reply = client.receive();
-    ASSERT_TRUE(reply);
-    if (reply->header.request_id() == 2 && reply->header.has_error()) {
-      expired = true;
-      EXPECT_EQ(reply->header.error().code(), v1::ERROR_CODE_DEADLINE_EXCEEDED);
-      EXPECT_EQ(reply->header.error().field(), "deadline_ms");
-    }
-  }
-  EXPECT_TRUE(expired);
+  held.release();
+  ASSERT_TRUE(other.receive());
+  const auto reply = client.receive();
+  ASSERT_TRUE(reply);
+  EXPECT_EQ(reply->header.error().code(), v1::ERROR_CODE_DEADLINE_EXCEEDED);
+  EXPECT_EQ(reply->header.error().field(), "deadline_ms");
+  EXPECT_EQ(server_->counters().expired, 1U);
+  EXPECT_EQ(work_of_hurried(), 0U);
+  // In time the same request is work.
+  EXPECT_FALSE(client.ask(hurried, body).header.has_error());
+  EXPECT_GT(work_of_hurried(), 0U);
 }
 
 TEST_F(LoadTest, AGreedyClientDoesNotStarveAnother) {
@@ -96,18 +101,63 @@ TEST_F(LoadTest, OverloadIsRefusedAtOnce) {
   EXPECT_EQ(server_->counters().refused, static_cast<std::uint64_t>(refused));
 }
 
-TEST_F(LoadTest, ClientsThatLeaveOrDoNotReadHoldNothingUp) {
+TEST_F(LoadTest, ClientsThatLeaveHoldNothingUp) {
   const std::string id = [this] {
     RawClient client(server_->endpoint());
     return set_observation(client);
   }();
-  for (int i = 0; i < 20; ++i) {
+  constexpr int kClients = 20;
+  constexpr int kRequests = 5;
+  for (int i = 0; i < kClients; ++i) {
     RawClient leaving(server_->endpoint());
-    for (int k = 0; k < 5; ++k) {
+    for (int k = 0; k < kRequests; ++k) {
       leaving.send(RawClient::header("Score"), score_request(id, 500).SerializeAsString());
     }
+    // It leaves when the server has heard it.
+    const auto heard = 1 + static_cast<std::uint64_t>(kRequests * (i + 1));
+    ASSERT_TRUE(eventually([&] { return server_->counters().requests >= heard; }));
   }
+  EXPECT_TRUE(eventually([this] { return server_->counters().in_flight == 0; }));
   expect_alive();
+}
+
+TEST_F(LoadTest, AClientThatNeverReadsHoldsUpNobodyButItself) {
+  constexpr std::size_t kInFlight = 100;
+  server::ServerConfig config;
+  config.limits.max_in_flight_per_client = kInFlight;
+  start(config);
+  RawClient other(server_->endpoint());
+  RawClient silent(server_->endpoint(), zmq::socket_type::dealer, 1);
+  v1::ScoreRequest request = score_request(set_observation(other), 500);
+  request.set_whole_curve(true);
+  const std::string body = request.SerializeAsString();
+  // 24 MB of replies: more than the sockets on the way hold.
+  for (std::size_t i = 0; i < kInFlight; ++i) silent.send(RawClient::header("Score"), body);
+  ASSERT_TRUE(eventually([this] {
+    return server_->counters().requests > kInFlight && server_->counters().in_flight == 0;
+  }));
+  // What it has not read counts as its requests, so it can only fill its own share …
+  for (std::size_t i = 0; i < kInFlight; ++i) silent.send(RawClient::header("Score"), body);
+  EXPECT_TRUE(eventually([this] { return server_->counters().refused > 0; }));
+  // … and others are served as ever.
+  EXPECT_FALSE(other.ask(RawClient::header("Score"), body).header.has_error());
+}
+
+TEST_F(LoadTest, AMessageFarAboveTheLimitCutsOnlyItsOwnConnection) {
+  server::ServerConfig config;
+  config.limits.max_message_bytes = 100'000;
+  start(config);
+  RawClient other(server_->endpoint());
+  other.get<v1::HelloReply>("Hello", v1::HelloRequest());
+  other.watch_line();
+  RawClient flooding(server_->endpoint());
+  flooding.get<v1::HelloReply>("Hello", v1::HelloRequest());
+  flooding.watch_line();
+  flooding.send(RawClient::header("Hello"), std::string(1'000'000, 'x'));
+  EXPECT_TRUE(flooding.line_was_cut(std::chrono::seconds(20)));
+  other.get<v1::HelloReply>("Hello", v1::HelloRequest());
+  EXPECT_FALSE(other.line_was_cut(std::chrono::milliseconds(0)));
+  EXPECT_EQ(server_->counters().requests, 3U);
 }
 
 TEST_F(LoadTest, AClientThatReadsLateGetsEveryReply) {

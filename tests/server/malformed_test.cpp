@@ -247,14 +247,6 @@ TEST_F(MalformedTest, ImagesOfTooManyPixelsAreResourceExhausted) {
   expect_error("GetViews", views, v1::ERROR_CODE_RESOURCE_EXHAUSTED, "pinholes.rows");
 }
 
-TEST_F(MalformedTest, AMessageFarAboveTheLimitCutsOnlyItsOwnConnection) {
-  server::ServerConfig config;
-  config.limits.max_message_bytes = 100'000;
-  start(config);
-  RawClient flooding(server_->endpoint());
-  flooding.send(RawClient::header("Hello"), std::string(1'000'000, 'x'));
-}
-
 TEST_F(MalformedTest, AQuestionWithoutATargetNamesIt) {
   v1::GetViewsRequest views;
   views.set_map_id("room");

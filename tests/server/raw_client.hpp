@@ -2,6 +2,7 @@
 /// A client without our client library: frames in, frames out.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +54,20 @@ class RawClient {
     send_frames({request.SerializeAsString(), body});
   }
 
+  /// From now on `line_was_cut` knows.
+  void watch_line() {
+    const char* const address = "inproc://line";
+    ASSERT_EQ(zmq_socket_monitor(socket_.handle(), address, ZMQ_EVENT_DISCONNECTED), 0);
+    line_ = zmq::socket_t(context_, zmq::socket_type::pair);
+    line_.connect(address);
+  }
+  /// Waits for it as long as `patience`.
+  bool line_was_cut(std::chrono::milliseconds patience) {
+    line_.set(zmq::sockopt::rcvtimeo, static_cast<int>(patience.count()));
+    zmq::message_t event;
+    return line_.recv(event).has_value();
+  }
+
   std::optional<RawReply> receive() {
     RawReply reply;
     std::vector<std::string> frames;
@@ -97,6 +112,7 @@ class RawClient {
  private:
   zmq::context_t context_{1};
   zmq::socket_t socket_;
+  zmq::socket_t line_;  ///< tells when the connection ends
 };
 
 }  // namespace semview::test
