@@ -112,15 +112,24 @@ void print(const LmdbStore::VerifyReport& report) {
              report.unknown);
 }
 
+void add(nlohmann::json& json, const std::optional<cache::Rescue>& rescue) {
+  if (!rescue) return;
+  json["rescue"] = {
+      {"views", rescue->views}, {"damage", rescue->damage}, {"set_aside", rescue->set_aside}};
+}
+
 Result<int> verify(const Options& options) {
   SEMVIEW_TRY(const cache::LmdbConfig config, existing(options));
   SEMVIEW_TRY(const std::shared_ptr<LmdbStore> store, LmdbStore::open(config));
   SEMVIEW_TRY(const LmdbStore::VerifyReport report, store->verify());
   if (options.json) {
-    fmt::print("{}\n", to_json(report).dump(2));
+    nlohmann::json json = to_json(report);
+    add(json, store->rescue());
+    fmt::print("{}\n", json.dump(2));
   } else {
     print(report);
   }
+  if (store->rescue()) return kExitFailed;  // the log has said what was damaged
   if (report.sound == report.records) return 0;
   fmt::print(stderr,
              "semview: {} records cannot be used; their views are cast again when they are asked "
@@ -135,6 +144,7 @@ Result<int> compact(const Options& options) {
   SEMVIEW_TRY(const LmdbStore::CompactReport report, LmdbStore::compact(config));
   if (options.json) {
     nlohmann::json json = to_json(report.found);
+    add(json, report.rescue);
     json["bytes_before"] = report.bytes_before;
     json["bytes_after"] = report.bytes_after;
     fmt::print("{}\n", json.dump(2));
@@ -152,7 +162,9 @@ void add_cache_verb(CLI::App& app, int& exit_code) {
   verb->description(
       "A cache directory holds the views of any number of maps, one record a cell, each with its\n"
       "full key and a checksum. Views of a map that has changed stay until the directory is\n"
-      "removed; they are never served for the new map.");
+      "removed; they are never served for the new map. Whoever opens a directory first, these "
+      "verbs\n"
+      "included, replaces a damaged data file by a new one with every sound record of it.");
   verb->require_subcommand(1);
   auto options = std::make_shared<Options>();
   using Run = Result<int> (*)(const Options&);
@@ -168,7 +180,9 @@ void add_cache_verb(CLI::App& app, int& exit_code) {
     });
   };
   add("info", "Which maps, how many views, complete or not, bytes", info);
-  add("verify", "Read and check every record; exit 1 if one cannot be used", verify);
+  add("verify",
+      "Read and check every record; exit 1 if one cannot be used or the file was damaged",
+      verify);
   add("compact", "Drop records that cannot be used and rewrite the file densely", compact);
   verb->footer("Example:\n  semview cache info cache\n  semview cache verify cache --json");
 }

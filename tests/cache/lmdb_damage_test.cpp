@@ -136,6 +136,9 @@ TEST_F(LmdbDamageTest, AFileCutShortKeepsEveryRecordBeforeTheCut) {
     const auto store = LmdbStore::open({folder_.path()});
     ASSERT_TRUE(store.has_value()) << store.error().message;
     EXPECT_TRUE(set_aside());
+    ASSERT_TRUE((*store)->rescue());
+    EXPECT_EQ((*store)->rescue()->set_aside, "data.mdb.damaged");
+    EXPECT_EQ((*store)->rescue()->views, (*store)->verify()->records);
     std::ptrdiff_t kept = 0;
     ASSERT_TRUE((*store)
                     ->for_each_record([&](auto, std::span<const std::byte> record) {
@@ -146,6 +149,20 @@ TEST_F(LmdbDamageTest, AFileCutShortKeepsEveryRecordBeforeTheCut) {
                     .has_value());
     EXPECT_GE(kept, before * 9 / 10) << "replaced records lie in the file beside their successors";
   }
+}
+
+TEST_F(LmdbDamageTest, WhoseViewsTheyAreIsSavedWithThem) {
+  std::string bytes = sound_;
+  bytes[16] = static_cast<char>(~bytes[16]);  // the magic number of the file's first page
+  start_with(bytes);
+  const auto store = LmdbStore::open({folder_.path()});
+  ASSERT_TRUE(store && (*store)->rescue());
+  const auto entries = (*store)->keyspaces();
+  ASSERT_TRUE(entries);
+  const auto house = std::ranges::find(*entries, keyspace_, &KeyspaceEntry::keyspace);
+  ASSERT_NE(house, entries->end());
+  EXPECT_EQ(house->map_id, "house");
+  EXPECT_EQ(house->cells.size(), kViews);
 }
 
 TEST_F(LmdbDamageTest, NoDamageAnywhereCrashesOrServesAWrongView) {

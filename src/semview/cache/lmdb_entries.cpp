@@ -9,8 +9,6 @@
 namespace semview::cache::detail {
 namespace {
 
-constexpr std::array kDescriptionMagic = {
-    std::byte{'S'}, std::byte{'V'}, std::byte{'W'}, std::byte{'K'}};
 constexpr std::uint16_t kDescriptionFormat = 1;
 constexpr std::size_t kMaxDescribedCells = 100'000'000;  // a square kilometre
 
@@ -118,6 +116,17 @@ Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes) {
   }
   if (in.failed()) return damaged;
   return entry;
+}
+
+std::size_t description_length(std::span<const std::byte> bytes) {
+  constexpr std::size_t kRunBytes = 12;
+  constexpr std::size_t kChecksumBytes = 8;
+  ByteReader in(bytes);
+  in.take_bytes(kDescriptionMagic.size() + sizeof(kDescriptionFormat));
+  in.take_bytes(in.take<std::uint16_t>());
+  in.take_bytes(in.take<std::uint8_t>());
+  const std::size_t runs = in.take<std::uint32_t>();
+  return in.failed() ? 0 : bytes.size() - in.left() + runs * kRunBytes + kChecksumBytes;
 }
 
 }  // namespace semview::cache::detail

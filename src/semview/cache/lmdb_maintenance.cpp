@@ -135,11 +135,11 @@ Result<LmdbStore::CompactReport> LmdbStore::compact(const LmdbConfig& config) {
                       {},
                       "stop that process first"});
   }
-  SEMVIEW_TRY_STATUS(detail::mend_data_file(directory, config.map_bytes));
+  CompactReport report;
+  SEMVIEW_TRY(report.rescue, detail::mend_data_file(directory, config.map_bytes));
   const std::filesystem::path fresh = directory / detail::kRewritingFolder;
   std::error_code error;
   std::filesystem::remove_all(fresh, error);  // of a compaction that was killed
-  CompactReport report;
   Status written;
   {
     SEMVIEW_TRY(const detail::Environment source,

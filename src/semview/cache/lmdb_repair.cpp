@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <functional>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -52,39 +51,50 @@ class MappedFile {
   std::span<const std::byte> bytes_;
 };
 
-using TakeRecord =
-    std::function<Status(const Record& record, std::span<const std::byte> record_bytes)>;
-
-/// Calls `take` for every sound record in `file`, wherever it lies: a record tells its own length
-/// and has a checksum, and LMDB keeps a value in one piece. Pages that LMDB has freed may give a
-/// record twice.
-Status for_each_sound_record(std::span<const std::byte> file, const TakeRecord& take) {
+/// Calls `take(bytes)` for every place in `file` that starts like one of our values and is as long
+/// as `length_of` reads there; `take` says whether the value is sound. Values tell their own length
+/// and have a checksum, and LMDB keeps a value in one piece. Pages that LMDB has freed may give one
+/// twice.
+template <typename LengthOf, typename Take>
+Status for_each_sound_value(std::span<const std::byte> file,
+                            std::span<const std::byte> magic,
+                            LengthOf&& length_of,
+                            Take&& take) {
   while (true) {
     // Not std::ranges::search: clang 14 cannot compile it for a span.
-    const auto found =
-        std::search(file.begin(), file.end(), kRecordMagic.begin(), kRecordMagic.end());
+    const auto found = std::search(file.begin(), file.end(), magic.begin(), magic.end());
     if (found == file.end()) return {};
     file = file.subspan(static_cast<std::size_t>(found - file.begin()));
-    const std::size_t length = record_length(file);
-    const std::span<const std::byte> bytes = file.first(std::min(length, file.size()));
-    const Result<Record> record = decode_record(bytes);
-    if (record) SEMVIEW_TRY_STATUS(take(*record, bytes));
-    file = file.subspan(record ? bytes.size() : kRecordMagic.size());
+    const std::span<const std::byte> bytes = file.first(std::min(length_of(file), file.size()));
+    SEMVIEW_TRY(const bool sound, take(bytes));
+    file = file.subspan(sound ? bytes.size() : magic.size());
   }
 }
 
-/// Writes the sound records of `file` into a new environment in `directory`.
-/// @returns how many there are now.
-Result<std::uint64_t> save_records(std::span<const std::byte> file,
-                                   const std::filesystem::path& directory,
-                                   std::uint64_t map_bytes) {
+/// Writes the sound records and descriptions of `file` into a new environment in `directory`.
+/// @returns how many records there are now.
+Result<std::uint64_t> save_values(std::span<const std::byte> file,
+                                  const std::filesystem::path& directory,
+                                  std::uint64_t map_bytes) {
   SEMVIEW_TRY(const Environment target, Environment::open(directory, map_bytes));
   BatchWriter writer(target, 0);
+  const auto take_record = [&](std::span<const std::byte> bytes) -> Result<bool> {
+    const Result<Record> record = decode_record(bytes);
+    if (!record) return false;
+    const RecordKey key = record_key(digest(record->keyspace), record->cell);
+    SEMVIEW_TRY_STATUS(writer.add(target.records(), key, bytes));
+    return true;
+  };
+  const auto take_description = [&](std::span<const std::byte> bytes) -> Result<bool> {
+    const Result<KeyspaceEntry> entry = read_description(bytes);
+    if (!entry) return false;
+    const Fingerprint name = digest(entry->keyspace);
+    SEMVIEW_TRY_STATUS(writer.add(target.keyspaces(), std::as_bytes(std::span(name.bytes)), bytes));
+    return true;
+  };
+  SEMVIEW_TRY_STATUS(for_each_sound_value(file, kRecordMagic, record_length, take_record));
   SEMVIEW_TRY_STATUS(
-      for_each_sound_record(file, [&](const Record& record, std::span<const std::byte> bytes) {
-        return writer.add(
-            target.records(), record_key(digest(record.keyspace), record.cell), bytes);
-      }));
+      for_each_sound_value(file, kDescriptionMagic, description_length, take_description));
   SEMVIEW_TRY_STATUS(writer.sync());
   SEMVIEW_TRY(const Transaction reading, Transaction::begin(target.get(), MDB_RDONLY));
   MDB_stat statistics{};
@@ -103,16 +113,17 @@ std::filesystem::path free_name(const std::filesystem::path& directory) {
 
 }  // namespace
 
-Status mend_data_file(const std::filesystem::path& directory, std::uint64_t map_bytes) {
+Result<std::optional<Rescue>> mend_data_file(const std::filesystem::path& directory,
+                                             std::uint64_t map_bytes) {
   const std::filesystem::path data = directory / "data.mdb";
   SEMVIEW_TRY(const MappedFile file, MappedFile::open(data));
-  if (file.bytes().empty()) return {};
+  if (file.bytes().empty()) return std::nullopt;
   const Status pages = check_pages(file.bytes());
-  if (pages) return {};
+  if (pages) return std::nullopt;
   const std::filesystem::path fresh = directory / "mending";
   std::error_code error;
   std::filesystem::remove_all(fresh, error);  // of a mending that was killed
-  const Result<std::uint64_t> saved = save_records(file.bytes(), fresh, map_bytes);
+  const Result<std::uint64_t> saved = save_values(file.bytes(), fresh, map_bytes);
   Status mended;
   const std::filesystem::path aside = free_name(directory);
   if (!saved) {
@@ -134,16 +145,16 @@ Status mend_data_file(const std::filesystem::path& directory, std::uint64_t map_
     if (error) mended = fail(lmdb_error(error.value(), fmt::format("{}: replace", data.string())));
   }
   std::filesystem::remove_all(fresh, error);
-  if (mended) {
-    log_warning(
-        fmt::format("cache {}: data.mdb is damaged ({}); {} sound views were saved, the others are "
-                    "cast again; the damaged file is now {} and may be removed",
-                    directory.string(),
-                    pages.error().message,
-                    *saved,
-                    aside.filename().string()));
-  }
-  return mended;
+  SEMVIEW_TRY_STATUS(std::move(mended));
+  Rescue rescue{*saved, pages.error().message, aside.filename().string()};
+  log_warning(
+      fmt::format("cache {}: data.mdb is damaged ({}); {} sound views were saved, the others are "
+                  "cast again; the damaged file is now {} and may be removed",
+                  directory.string(),
+                  rescue.damage,
+                  rescue.views,
+                  rescue.set_aside));
+  return rescue;
 }
 
 }  // namespace semview::cache::detail

@@ -4,17 +4,21 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
+#include "semview/cache/lmdb_store.hpp"
 #include "semview/core/result.hpp"
 
 namespace semview::cache::detail {
 
 /// Follows the pages of a directory's data file (`check_pages`). If they are damaged, every sound
-/// record that the file's bytes still hold goes into a new data file, the damaged one is renamed
+/// record and description that the file's bytes still hold goes into a new data file, the damaged
+/// one is renamed
 /// (`data.mdb.damaged`, `data.mdb.damaged.2`, …), and a line in the log says so. A missing or empty
-/// data file is sound. Only for a process that has the directory to itself.
+/// data file is sound: no rescue. Only for a process that has the directory to itself.
 /// @errors kFailedPrecondition: the file never was a cache's; kDataLoss: the new file cannot be
 /// written, nothing was changed.
-Status mend_data_file(const std::filesystem::path& directory, std::uint64_t map_bytes);
+Result<std::optional<Rescue>> mend_data_file(const std::filesystem::path& directory,
+                                             std::uint64_t map_bytes);
 
 }  // namespace semview::cache::detail

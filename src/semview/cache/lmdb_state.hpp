@@ -23,10 +23,14 @@ enum class RecordState { kSound, kDamaged, kForeign, kUnknown };
 }  // namespace detail
 
 struct LmdbStore::State {
-  State(LmdbConfig the_config, detail::DirectoryLock the_lock, detail::Environment the_environment)
+  State(LmdbConfig the_config,
+        detail::DirectoryLock the_lock,
+        detail::Environment the_environment,
+        std::optional<Rescue> the_rescue)
       : config(std::move(the_config)),
         lock(std::move(the_lock)),
-        environment(std::move(the_environment)) {}
+        environment(std::move(the_environment)),
+        rescue(std::move(the_rescue)) {}
 
   /// A record that cannot be served.
   void count(detail::RecordState found) {
@@ -38,6 +42,7 @@ struct LmdbStore::State {
   LmdbConfig config;
   detail::DirectoryLock lock;
   detail::Environment environment;
+  std::optional<Rescue> rescue;
   std::atomic<bool> storing{true};
   std::atomic<std::uint64_t> hits{0};
   std::atomic<std::uint64_t> misses{0};
@@ -62,11 +67,17 @@ RecordState inspect(std::span<const std::byte> key,
                     std::span<const std::byte> bytes,
                     std::optional<Record>& record);
 
+inline constexpr std::array kDescriptionMagic = {
+    std::byte{'S'}, std::byte{'V'}, std::byte{'W'}, std::byte{'K'}};
+
 /// The description of a keyspace in its table.
 std::vector<std::byte> describe(const Keyspace& keyspace,
                                 const std::string& map_id,
                                 std::span<const CellIndex> map_cells);
 Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes);
+
+/// As `record_length`, of a description.
+std::size_t description_length(std::span<const std::byte> bytes);
 
 }  // namespace detail
 }  // namespace semview::cache

@@ -70,22 +70,23 @@ Result<std::shared_ptr<LmdbStore>> LmdbStore::open(const LmdbConfig& config) {
     stores.closed.wait(lock);
   }
   SEMVIEW_TRY(detail::DirectoryLock directory_lock, detail::DirectoryLock::take(config.directory));
+  std::optional<Rescue> rescue;
   if (directory_lock.alone()) {
     std::filesystem::remove_all(config.directory / detail::kRewritingFolder, error);
-    SEMVIEW_TRY_STATUS(detail::mend_data_file(config.directory, config.map_bytes));
+    SEMVIEW_TRY(rescue, detail::mend_data_file(config.directory, config.map_bytes));
     directory_lock.share();
   }
   SEMVIEW_TRY(detail::Environment environment,
               detail::Environment::open(config.directory, config.map_bytes));
+  auto state = std::make_unique<State>(
+      config, std::move(directory_lock), std::move(environment), std::move(rescue));
   store =
-      std::shared_ptr<LmdbStore>(new LmdbStore(std::make_unique<State>(
-                                     config, std::move(directory_lock), std::move(environment))),
-                                 [directory](LmdbStore* closing) {
-                                   delete closing;
-                                   const std::lock_guard closing_lock(open_stores().mutex);
-                                   open_stores().by_directory.erase(directory);
-                                   open_stores().closed.notify_all();
-                                 });
+      std::shared_ptr<LmdbStore>(new LmdbStore(std::move(state)), [directory](LmdbStore* closing) {
+        delete closing;
+        const std::lock_guard closing_lock(open_stores().mutex);
+        open_stores().by_directory.erase(directory);
+        open_stores().closed.notify_all();
+      });
   stores.by_directory[directory] = store;
   return store;
 }
@@ -282,6 +283,8 @@ StoreCounters LmdbStore::counters() const {
   counters.storing = state_->storing;
   return counters;
 }
+
+const std::optional<Rescue>& LmdbStore::rescue() const { return state_->rescue; }
 
 std::uint64_t LmdbStore::file_bytes() const { return state_->environment.used_bytes(); }
 

@@ -42,6 +42,13 @@ struct KeyspaceEntry {
   bool complete() const { return !cells.empty() && stored_cells == cells.size(); }
 };
 
+/// What was done about a damaged data file.
+struct Rescue {
+  std::uint64_t views = 0;  ///< sound records that went into the new data file
+  std::string damage;       ///< the first page that is wrong, and in what
+  std::string set_aside;    ///< the damaged file's name now
+};
+
 /// A view ready to be stored.
 struct EncodedView {
   CellIndex cell;
@@ -88,6 +95,9 @@ class LmdbStore final : public ViewStore {
   /// @errors kResourceExhausted: storing has stopped; the message says why.
   Status put_encoded(const Keyspace& keyspace, std::span<const EncodedView> views);
 
+  /// What opening did, if the data file was damaged.
+  const std::optional<Rescue>& rescue() const;
+
   /// All keyspaces, in order of their digests.
   Result<std::vector<KeyspaceEntry>> keyspaces() const;
 
@@ -106,6 +116,7 @@ class LmdbStore final : public ViewStore {
   Result<VerifyReport> verify() const;
 
   struct CompactReport {
+    std::optional<Rescue> rescue;
     VerifyReport found;
     std::uint64_t bytes_before = 0;
     std::uint64_t bytes_after = 0;
