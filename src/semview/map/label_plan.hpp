@@ -21,8 +21,9 @@ struct PaletteEntry {
 
 /// Matches every pixel with `palette`, whose entry i becomes index i. Colours that are not in it
 /// are errors, one a colour (the most frequent ones by themselves, the rest together), each with
-/// count, first pixel and the nearest entry; with `nearest_colour` they become that entry and one
-/// warning counts them.
+/// count, first pixel and the nearest entry; with `nearest_colour` they become the nearest entry
+/// among those of pixels close by whose colour is beyond doubt (else the nearest of all: so the
+/// smoothed edge between two classes never looks like a third), and one warning counts them.
 std::optional<Image<std::uint8_t>> match_colors(const RgbImage& labels,
                                                 const std::vector<PaletteEntry>& palette,
                                                 bool nearest_colour,

@@ -42,8 +42,8 @@ struct SemanticMap {
 };
 
 struct LoadOptions {
-  /// Takes a pixel whose colour is no class's to be of the class with the nearest colour (in sRGB),
-  /// for drawings with smoothed edges; by default such a pixel is an error.
+  /// Takes a pixel whose colour is no class's to be of the class with the nearest colour (in sRGB)
+  /// close by, for drawings with smoothed edges; by default such a pixel is an error.
   bool nearest_colour = false;
 };
 
