@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview map export`.
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,10 @@ struct Options {
 };
 
 Status export_map(const Options& options) {
+  if (std::filesystem::path(options.output).extension() != ".glb") {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("OUT: {}: expected a name that ends in .glb", options.output));
+  }
   SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
   const map::TriangleMesh mesh =

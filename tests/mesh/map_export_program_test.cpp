@@ -55,6 +55,13 @@ TEST_F(MapExportProgramTest, WritesAMapWithTheSameSurfacesOfEachClass) {
   for (const auto& [name, area] : wanted) EXPECT_NEAR(found.at(name), area, 1e-4 * area) << name;
 }
 
+TEST_F(MapExportProgramTest, RefusesANameUnderWhichItWouldBeNoMap) {
+  const Outcome outcome = run_semview("map export " + kMap + " " + file("house.txt"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("house.txt: expected a name that ends in .glb"));
+  EXPECT_FALSE(std::filesystem::exists(file("house.txt")));
+}
+
 TEST_F(MapExportProgramTest, WritesTheSameBytesEachTime) {
   ASSERT_EQ(run_semview("map export " + kMap + " " + file("a.glb")).exit_code, 0);
   ASSERT_EQ(run_semview("map export " + kMap + " " + file("b.glb")).exit_code, 0);
