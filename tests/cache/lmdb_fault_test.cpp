@@ -111,6 +111,45 @@ TEST_F(LmdbFaultTest, AFailingWriteStopsStoringAndServesOn) {
   EXPECT_EQ(report->sound, report->records);
 }
 
+TEST_F(LmdbFaultTest, ADirectoryThatMayOnlyBeReadIsReadAndLeftAsItIs) {
+  {
+    const auto store = LmdbStore::open({folder_.path()});
+    ASSERT_TRUE(store.has_value());
+    (*store)->put(keyspace_, cells_, views_);
+  }
+  const std::string before = read_file();
+  namespace fs = std::filesystem;
+  const fs::perms all_read = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
+    fs::permissions(entry, all_read);
+  }
+  fs::permissions(
+      folder_.path(),
+      all_read | fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec);
+  // In a child that is not root, whom no permissions bind.
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (geteuid() == 0 && seteuid(kNobody) != 0) _exit(2);
+    const auto store = LmdbStore::open({folder_.path()});
+    if (!store) _exit(3);
+    (*store)->put(keyspace_, cells_, test_views(60, 500));
+    const StoreCounters counters = (*store)->counters();
+    if (counters.storing || counters.refused != 60) _exit(4);
+    const std::vector<SharedView> found = (*store)->get(keyspace_, cells_);
+    for (std::size_t i = 0; i < 60; ++i) {
+      if (found[i] == nullptr || *found[i] != *views_[i]) _exit(5);
+    }
+    _exit(0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  fs::permissions(folder_.path(), fs::perms::owner_all);
+  EXPECT_EQ(read_file(), before);
+}
+
 TEST_F(LmdbFaultTest, FlippedBytesInRecordsAreSeenCountedAndCastAgain) {
   std::vector<std::vector<std::byte>> records;
   {

@@ -76,6 +76,19 @@ Result<Environment> Environment::open(const std::filesystem::path& directory,
   if (made) {
     return fail(lmdb_error(made.value(), fmt::format("cache {}", directory.string())));
   }
+  // NOMETASYNC: a power cut may lose the last commits, never the file's order; losing views costs
+  // only casting them again.
+  return open(directory, map_bytes, MDB_NOMETASYNC);
+}
+
+Result<Environment> Environment::open_read_only(const std::filesystem::path& directory,
+                                                std::uint64_t map_bytes) {
+  return open(directory, map_bytes, MDB_RDONLY | MDB_NOLOCK);
+}
+
+Result<Environment> Environment::open(const std::filesystem::path& directory,
+                                      std::uint64_t map_bytes,
+                                      unsigned flags) {
   const auto failed = [&directory](int code, std::string_view what) {
     Error error = lmdb_error(code, fmt::format("cache {}: {}", directory.string(), what));
     if (error.code == ErrorCode::kFailedPrecondition || error.code == ErrorCode::kDataLoss) {
@@ -90,25 +103,24 @@ Result<Environment> Environment::open(const std::filesystem::path& directory,
   mdb_env_set_mapsize(handle, map_bytes);
   mdb_env_set_maxdbs(handle, 2);
   mdb_env_set_maxreaders(handle, kMaxReaders);
-  // NOTLS: readers belong to calls, not threads. NOMETASYNC: a power cut may lose the last commits,
-  // never the file's order; losing views costs only casting them again.
-  if (const int code =
-          mdb_env_open(handle, directory.c_str(), MDB_NOTLS | MDB_NOMETASYNC, kFileMode);
+  // NOTLS: readers belong to calls, not threads.
+  if (const int code = mdb_env_open(handle, directory.c_str(), MDB_NOTLS | flags, kFileMode);
       code != 0) {
     return failed(code, "open");
   }
   int gone = 0;
   mdb_reader_check(handle, &gone);
-  if (Status opened = environment.open_databases(); !opened) {
+  if (Status opened = environment.open_databases(flags & MDB_RDONLY); !opened) {
     return with_context(std::move(opened), fmt::format("cache {}", directory.string()));
   }
   return environment;
 }
 
-Status Environment::open_databases() {
-  SEMVIEW_TRY(Transaction transaction, Transaction::begin(get(), 0));
+Status Environment::open_databases(unsigned flags) {
+  SEMVIEW_TRY(Transaction transaction, Transaction::begin(get(), flags));
+  const unsigned table_flags = flags == MDB_RDONLY ? 0 : MDB_CREATE;
   for (auto [name, database] : {std::pair("records", &records_), {"keyspaces", &keyspaces_}}) {
-    if (const int code = mdb_dbi_open(transaction.get(), name, MDB_CREATE, database); code != 0) {
+    if (const int code = mdb_dbi_open(transaction.get(), name, table_flags, database); code != 0) {
       return fail(lmdb_error(code, fmt::format("open table {}", name)));
     }
   }

@@ -72,6 +72,9 @@ class Environment {
  public:
   /// Makes the directory if it is missing, clears readers of processes that are gone.
   static Result<Environment> open(const std::filesystem::path& directory, std::uint64_t map_bytes);
+  /// Of a directory that this process may not write to, which nobody writes to meanwhile.
+  static Result<Environment> open_read_only(const std::filesystem::path& directory,
+                                            std::uint64_t map_bytes);
   Environment(Environment&&) noexcept = default;
   Environment& operator=(Environment&&) noexcept = default;
 
@@ -87,7 +90,10 @@ class Environment {
     void operator()(MDB_env* handle) const { mdb_env_close(handle); }
   };
   Environment() = default;
-  Status open_databases();
+  static Result<Environment> open(const std::filesystem::path& directory,
+                                  std::uint64_t map_bytes,
+                                  unsigned flags);
+  Status open_databases(unsigned flags);
 
   std::unique_ptr<MDB_env, Close> handle_;
   MDB_dbi records_ = 0;

@@ -157,4 +157,15 @@ Result<std::optional<Rescue>> mend_data_file(const std::filesystem::path& direct
   return rescue;
 }
 
+Status check_data_file(const std::filesystem::path& directory) {
+  const std::filesystem::path data = directory / "data.mdb";
+  SEMVIEW_TRY(const MappedFile file, MappedFile::open(data));
+  const Status pages = check_pages(file.bytes());
+  if (pages) return {};
+  return fail(Error{ErrorCode::kDataLoss,
+                    fmt::format("{}: damaged ({})", data.string(), pages.error().message),
+                    {},
+                    "open it once with the right to write: its sound records are kept"});
+}
+
 }  // namespace semview::cache::detail

@@ -21,4 +21,8 @@ namespace semview::cache::detail {
 Result<std::optional<Rescue>> mend_data_file(const std::filesystem::path& directory,
                                              std::uint64_t map_bytes);
 
+/// Follows the pages of a data file that cannot be mended here.
+/// @errors kDataLoss: damaged; kPermissionDenied, kUnavailable: it cannot be read.
+Status check_data_file(const std::filesystem::path& directory);
+
 }  // namespace semview::cache::detail

@@ -24,7 +24,7 @@ enum class RecordState { kSound, kDamaged, kForeign, kUnknown };
 
 struct LmdbStore::State {
   State(LmdbConfig the_config,
-        detail::DirectoryLock the_lock,
+        std::optional<detail::DirectoryLock> the_lock,
         detail::Environment the_environment,
         std::optional<Rescue> the_rescue)
       : config(std::move(the_config)),
@@ -40,7 +40,7 @@ struct LmdbStore::State {
   }
 
   LmdbConfig config;
-  detail::DirectoryLock lock;
+  std::optional<detail::DirectoryLock> lock;  // none: read only
   detail::Environment environment;
   std::optional<Rescue> rescue;
   std::atomic<bool> storing{true};

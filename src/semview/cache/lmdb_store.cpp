@@ -2,13 +2,10 @@
 #include "semview/cache/lmdb_store.hpp"
 
 #include <algorithm>
-#include <condition_variable>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "semview/cache/lmdb_repair.hpp"
 #include "semview/cache/lmdb_state.hpp"
 #include "semview/core/check.hpp"
 #include "semview/core/log.hpp"
@@ -19,18 +16,6 @@ namespace {
 
 using detail::RecordState;
 using detail::Transaction;
-
-/// The stores of this process by directory: LMDB must not open one twice in a process. An entry
-/// goes when its store is closed, which is after the last reference to it is gone.
-struct OpenStores {
-  std::mutex mutex;
-  std::condition_variable closed;
-  std::map<std::filesystem::path, std::weak_ptr<LmdbStore>> by_directory;
-};
-OpenStores& open_stores() {
-  static OpenStores stores;
-  return stores;
-}
 
 /// Room that storing these records may take at most: pages split half full, and the path to the
 /// root copied for each of the two tables.
@@ -46,50 +31,6 @@ std::uint64_t room_for(std::span<const EncodedView> views, std::uint64_t page_by
 
 LmdbStore::LmdbStore(std::unique_ptr<State> state) : state_(std::move(state)) {}
 LmdbStore::~LmdbStore() = default;
-
-Result<std::shared_ptr<LmdbStore>> LmdbStore::open(const LmdbConfig& config) {
-  std::error_code error;
-  std::filesystem::path directory = std::filesystem::weakly_canonical(config.directory, error);
-  if (error) directory = config.directory;
-  OpenStores& stores = open_stores();
-  std::shared_ptr<LmdbStore> store;  // outlives the lock: its end takes the lock
-  std::unique_lock lock(stores.mutex);
-  for (;;) {
-    const auto known = stores.by_directory.find(directory);
-    if (known == stores.by_directory.end()) break;
-    store = known->second.lock();
-    if (store != nullptr) {
-      const LmdbConfig& other = store->state_->config;
-      if (other.limit_bytes == config.limit_bytes && other.map_bytes == config.map_bytes) {
-        return store;
-      }
-      return fail(ErrorCode::kFailedPrecondition,
-                  fmt::format("cache {}: already open in this process with another limit",
-                              config.directory.string()));
-    }
-    stores.closed.wait(lock);
-  }
-  SEMVIEW_TRY(detail::DirectoryLock directory_lock, detail::DirectoryLock::take(config.directory));
-  std::optional<Rescue> rescue;
-  if (directory_lock.alone()) {
-    std::filesystem::remove_all(config.directory / detail::kRewritingFolder, error);
-    SEMVIEW_TRY(rescue, detail::mend_data_file(config.directory, config.map_bytes));
-    directory_lock.share();
-  }
-  SEMVIEW_TRY(detail::Environment environment,
-              detail::Environment::open(config.directory, config.map_bytes));
-  auto state = std::make_unique<State>(
-      config, std::move(directory_lock), std::move(environment), std::move(rescue));
-  store =
-      std::shared_ptr<LmdbStore>(new LmdbStore(std::move(state)), [directory](LmdbStore* closing) {
-        delete closing;
-        const std::lock_guard closing_lock(open_stores().mutex);
-        open_stores().by_directory.erase(directory);
-        open_stores().closed.notify_all();
-      });
-  stores.by_directory[directory] = store;
-  return store;
-}
 
 std::vector<SharedView> LmdbStore::get(const Keyspace& keyspace, std::span<const CellIndex> cells) {
   std::vector<SharedView> views(cells.size());

@@ -65,7 +65,8 @@ class LmdbStore final : public ViewStore {
  public:
   /// Opens or makes the directory. The first process to do so follows the data file's pages; if
   /// they are damaged it sets the file aside as `data.mdb.damaged` and goes on with a new one that
-  /// holds every record still sound.
+  /// holds every record still sound. A directory that may not be written to is read, and nothing is
+  /// stored; nobody else may write to it meanwhile.
   /// @errors kFailedPrecondition: this process has it open with another limit or map size, or it
   /// holds another program's database; kPermissionDenied, kUnavailable: the system refuses;
   /// kDataLoss: the data file is damaged and there is no room for a new one.
@@ -132,6 +133,8 @@ class LmdbStore final : public ViewStore {
  private:
   struct State;
   explicit LmdbStore(std::unique_ptr<State> state);
+  static Result<std::unique_ptr<State>> open_directory(const LmdbConfig& config);
+  static Result<std::unique_ptr<State>> open_read_only(const LmdbConfig& config);
   Status write(const Keyspace& keyspace, std::span<const EncodedView> views);
   Result<detail::Transaction> begin_write();
   tl::unexpected<Error> stop_storing(const Error& error);
