@@ -415,6 +415,15 @@ TEST_F(MapCheckerTest, TooLargeAnAreaIsAskedForItsResolution) {
 
 // Free space
 
+TEST_F(MapCheckerTest, NoRoomForACameraUnderTheCeiling) {
+  CheckOptions options;
+  options.eye_height_m = 9.0;
+  const MapCheck result = check(map_yaml(), {"###", "#.#", "###"}, options);
+  EXPECT_TRUE(result.report.has_errors());
+  EXPECT_THAT(text_of(result), HasSubstr("a camera 9 m above the ground would be in or above"));
+  EXPECT_THAT(text_of(result), HasSubstr("below the ceiling at"));
+}
+
 TEST_F(MapCheckerTest, NoFreeSpace) {
   check_loads_ = true;
   const MapCheck blocked = check(map_yaml(), {"   ", " T#", "###"});

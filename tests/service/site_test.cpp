@@ -42,6 +42,16 @@ TEST_F(SiteTest, ServesCellsFromCastThenMemory) {
   for (std::size_t i = 0; i < cells_.size(); ++i) EXPECT_EQ(*second->views[i], *engine->views[i]);
 }
 
+TEST_F(SiteTest, AnEyeAboveTheCeilingIsRefused) {
+  SiteConfig config;
+  config.profile.camera = {120, 24, -0.7, 0.7};
+  config.profile.eye_height_m = 2.7;
+  const auto site = Site::open(map_, config);
+  ASSERT_FALSE(site.has_value());
+  EXPECT_EQ(site.error().field, "--eye-height");
+  EXPECT_NE(site.error().hint.find("map check"), std::string::npos);
+}
+
 TEST_F(SiteTest, ARestartFindsItsViewsOnDisk) {
   SiteConfig config;
   config.cache_directory = folder_.path() / "cache";

@@ -68,6 +68,11 @@ std::optional<CellIndex> CellGrid::view_cell(const CellIndex& cell) const {
   return std::nullopt;
 }
 
+bool CellGrid::any_view() const {
+  return std::ranges::any_of(
+      facts_, [](std::uint8_t facts) { return (facts & (kFree | kHasEye)) == (kFree | kHasEye); });
+}
+
 std::vector<CellIndex> CellGrid::free_cells() const {
   std::vector<CellIndex> cells;
   cells.reserve(free_count_);

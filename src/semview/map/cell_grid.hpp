@@ -48,6 +48,8 @@ class CellGrid {
   std::optional<CellIndex> view_cell(const CellIndex& cell) const;
 
   std::size_t free_count() const { return free_count_; }
+  /// Whether a camera sees anything from anywhere: not if the ceiling is below the eye, say.
+  bool any_view() const;
   /// Row by row: lowest iy first, then lowest ix.
   std::vector<CellIndex> free_cells() const;
   /// True if `from` and `to` are free neighbours (of four) with nothing between their centres.

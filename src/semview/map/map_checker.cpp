@@ -80,6 +80,17 @@ MapProblem no_space_in_mesh(const SemanticMap& map, double eye_height_m) {
       "give the z of the storey's floor as `ground: {height: ...}` in map.yaml");
 }
 
+MapProblem no_view(const SemanticMap& map, double eye_height_m) {
+  const std::string ceiling =
+      map.ceiling ? fmt::format(", below the ceiling at {} m", map.ceiling->height_m) : "";
+  return file_problem(
+      Severity::kError,
+      geometry_file(map),
+      fmt::format("a camera {} m above the ground would be in or above something everywhere",
+                  eye_height_m),
+      fmt::format("is --eye-height right? It must leave room over the floor{}", ceiling));
+}
+
 MapProblem space_in_parts(const CellGrid& grid,
                           const std::vector<GridComponent>& parts,
                           const SemanticMap& map) {
@@ -124,7 +135,10 @@ void check_free_space(const CellGrid& grid,
     report.problems.push_back(map.columns() != nullptr
                                   ? no_space_drawn(map, *map.columns(), eye_height_m)
                                   : no_space_in_mesh(map, eye_height_m));
-  } else if (parts.size() > 1) {
+    return;
+  }
+  if (!grid.any_view()) report.problems.push_back(no_view(map, eye_height_m));
+  if (parts.size() > 1) {
     report.problems.push_back(space_in_parts(grid, parts, map));
   }
 }

@@ -118,6 +118,17 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
   if (!scene) return with_context(std::move(scene), path.string());
   parts->scene = std::make_shared<const raycast::Scene>(*std::move(scene));
   SEMVIEW_TRY(parts->cells, build_cells(parts->map, *parts->scene, config.profile.eye_height_m));
+  if (!parts->cells.any_view()) {
+    return fail(Error{ErrorCode::kFailedPrecondition,
+                      fmt::format("map {}: from no free cell does a camera {} m above the ground "
+                                  "see anything",
+                                  parts->map.id,
+                                  config.profile.eye_height_m),
+                      "--eye-height",
+                      fmt::format("semview map check --eye-height {} {} says why",
+                                  config.profile.eye_height_m,
+                                  path.string())});
+  }
   parts->engine = {std::string(raycast::kEngineName),
                    raycast::kEngineVersion,
                    config.engine == "auto" ? "it serves every map" : "it was asked for"};
