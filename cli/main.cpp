@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
 #include <exception>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,8 @@
 
 int main(int argc, char** argv) {
   int exit_code = 0;
+  // A limit on file sizes ends storing, as a full disk does, and not the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     CLI::App app{"semview: what would a camera see from here, in semantic labels?", "semview"};
     app.set_version_flag("--version", semview::kVersion);

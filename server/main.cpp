@@ -171,6 +171,8 @@ Status serve(const CommandLine& line) {
 int main(int argc, char** argv) {
   constexpr int kFailed = 1;
   constexpr int kUsage = 2;
+  // A limit on file sizes ends storing, as a full disk does, and not the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     CLI::App app{"semview-server: views and scores of semantic maps over ZeroMQ", "semview-server"};
     app.set_version_flag("--version", semview::kVersion);

@@ -119,15 +119,15 @@ void Reception::take(Incoming incoming, Dispatcher& dispatcher) {
 
 /// @errors kDataLoss: frames or header cannot be read; those of `protocol::validate`.
 Status Reception::read_header(const Incoming& incoming, v1::RequestHeader* header) {
+  Result<v1::RequestHeader> parsed = protocol::parse<v1::RequestHeader>(incoming.header, "header");
   if (!incoming.well_formed) {
     ++malformed_;
     // The header, if there is one, tells the sender which request this was.
-    if (!header->ParseFromString(incoming.header)) header->Clear();
+    if (parsed) *header = *std::move(parsed);
     return fail(Error{ErrorCode::kDataLoss,
                       fmt::format("frames: {}; expected a header and a body", incoming.frames),
                       "frames"});
   }
-  Result<v1::RequestHeader> parsed = protocol::parse<v1::RequestHeader>(incoming.header, "header");
   if (!parsed) {
     ++malformed_;
     return fail(std::move(parsed).error());

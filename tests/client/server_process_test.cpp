@@ -3,10 +3,15 @@
 #include <csignal>
 #include <fstream>
 
+#include <sys/resource.h>
+
 #include "client/lib/remote_maps.hpp"
 #include "client/lib/remote_score_source.hpp"
+#include "client/lib/remote_view_source.hpp"
 #include "client/lib/typed_call.hpp"
 #include "semview/map/cell_grid.hpp"
+#include "semview/v1/jobs.pb.h"
+#include "server/raw_client.hpp"
 #include "server/room.hpp"
 #include "support/running_server.hpp"
 
@@ -155,6 +160,54 @@ TEST_F(ServerProcessTest, LocalhostIsTheLoopbackAddressAndOfOtherNamesAnAddressI
     // Nobody is sent to all interfaces unwarned.
     EXPECT_NE(errors_.find("no authentication"), std::string::npos) << errors_;
   }
+}
+
+TEST_F(ServerProcessTest, WhatPeersSendWronglyIsNotWrittenToItsLog) {
+  const auto server = serve({"--map", room_.string(), "--bind", "tcp://127.0.0.1:*"});
+  v1::RequestHeader header = RawClient::header("Hello");
+  header.set_client_name("\xff\xfe");
+  RawClient client(endpoint_);
+  for (const bool well_formed : {true, false}) {
+    std::vector<std::string> frames{header.SerializeAsString(), ""};
+    if (!well_formed) frames.emplace_back("one too many");
+    client.send_frames(frames);
+    const auto reply = client.receive();
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(reply->header.error().code(), v1::ERROR_CODE_DATA_LOSS);
+  }
+  EXPECT_EQ(server->errors().find("UTF-8"), std::string::npos) << server->errors();
+}
+
+TEST_F(ServerProcessTest, ALimitOnFileSizesStopsStoringAndNotTheServer) {
+  rlimit own{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &own), 0);
+  const rlimit small{64 * 1024, own.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);  // children inherit it
+  const auto server = serve({"--map",
+                             room_.string(),
+                             "--bind",
+                             "tcp://127.0.0.1:*",
+                             "--cache",
+                             (folder_.path() / "cache").string()});
+  setrlimit(RLIMIT_FSIZE, &own);
+  client::ConnectionConfig config;
+  config.endpoint = endpoint_;
+  config.timeout = std::chrono::seconds(20);
+  const auto source = client::RemoteViewSource::open(config, "room");
+  ASSERT_TRUE(source) << source.error().message;
+  const auto cells = open_site(room_, {}, {})->cells().free_cells();
+  for (int round = 0; round < 2; ++round) {
+    const auto views = (*source)->views(cells);
+    ASSERT_TRUE(views) << views.error().message;
+  }
+  client::Connection connection = connect();
+  const auto stats =
+      client::typed_call<v1::GetStatsReply>(connection, "GetStats", v1::GetStatsRequest());
+  ASSERT_TRUE(stats);
+  EXPECT_FALSE(stats->disk().storing());
+  EXPECT_GT(stats->disk().refused(), 0U);
+  server->signal(SIGTERM);
+  EXPECT_EQ(server->wait(), 0);
 }
 
 TEST_F(ServerProcessTest, TheEventsComeFromThePortThatWasNamed) {
