@@ -104,7 +104,7 @@ Result<std::uint64_t> number_of(const Services& services,
         fmt::format(
             "{}: '{}' was not given out by this start of the server", field, id.substr(0, 64)),
         std::string(field),
-        "the server was restarted: send it again"});
+        "the server was restarted, or the id is another server's"});
   }
   return number;
 }
@@ -113,11 +113,14 @@ Result<SharedObservation> find_observation(Services& services,
                                            const std::string& id,
                                            const std::string& map_id) {
   constexpr std::string_view kField = "observation_id";
-  SEMVIEW_TRY(const std::uint64_t number, number_of(services, id, kField));
-  Result<service::StoredObservation> stored = services.observations.find(number);
+  const Result<std::uint64_t> number = number_of(services, id, kField);
+  Result<service::StoredObservation> stored =
+      number ? services.observations.find(*number)
+             : Result<service::StoredObservation>(fail(number.error()));
   if (!stored) {
     Error error = std::move(stored).error();
     error.field = kField;
+    error.hint = "send it again with SetObservation";
     return fail(std::move(error));
   }
   if (stored->map_id != map_id) {

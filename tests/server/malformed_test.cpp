@@ -116,9 +116,13 @@ TEST_F(MalformedTest, MapsAndObservationsThatAreNotThereAreNotFound) {
   expect_error("Score", score_request("17", 1), v1::ERROR_CODE_NOT_FOUND, "observation_id");
   const std::string id = set_observation(*client_);
   expect_error("Score", score_request(id + "0", 1), v1::ERROR_CODE_NOT_FOUND, "observation_id");
+  EXPECT_NE(client_->error_of("Score", score_request("17", 1)).hint().find("send it again"),
+            std::string::npos);
   v1::JobStatusRequest job;
   job.set_job_id("nonsense");
   expect_error("JobStatus", job, v1::ERROR_CODE_NOT_FOUND, "job_id");
+  // A job cannot be sent.
+  EXPECT_EQ(client_->error_of("JobStatus", job).hint().find("send it"), std::string::npos);
 }
 
 TEST_F(MalformedTest, AnotherMapsFingerprintIsAFailedPrecondition) {
