@@ -21,22 +21,6 @@ spdlog::logger& logger() {
 
 }  // namespace
 
-void set_log_level(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return logger().set_level(spdlog::level::debug);
-    case LogLevel::kInfo:
-      return logger().set_level(spdlog::level::info);
-    case LogLevel::kWarning:
-      return logger().set_level(spdlog::level::warn);
-    case LogLevel::kError:
-      return logger().set_level(spdlog::level::err);
-    case LogLevel::kOff:
-      return logger().set_level(spdlog::level::off);
-  }
-}
-
-void log_debug(std::string_view message) { logger().debug(message); }
 void log_info(std::string_view message) { logger().info(message); }
 void log_warning(std::string_view message) { logger().warn(message); }
 void log_error(std::string_view message) { logger().error(message); }

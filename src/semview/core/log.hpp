@@ -6,13 +6,7 @@
 
 namespace semview {
 
-enum class LogLevel { kDebug, kInfo, kWarning, kError, kOff };
-
-/// Messages below `level` are dropped; the default is `kInfo`. @threads safe
-void set_log_level(LogLevel level);
-
 /// @threads safe
-void log_debug(std::string_view message);
 void log_info(std::string_view message);
 void log_warning(std::string_view message);
 void log_error(std::string_view message);

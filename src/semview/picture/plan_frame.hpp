@@ -34,7 +34,6 @@ class PlanFrame {
 
   double x(double x_m) const { return left_ + (x_m - extent_.x_min_m) * px_per_m_; }
   double y(double y_m) const { return top_ + (extent_.y_max_m - y_m) * px_per_m_; }
-  double px_per_m() const { return px_per_m_; }
   double left() const { return left_; }
   double top() const { return top_; }
   double width() const { return (extent_.x_max_m - extent_.x_min_m) * px_per_m_; }

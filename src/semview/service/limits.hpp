@@ -15,7 +15,6 @@ struct Limits {
   std::size_t max_views = 4096;                            ///< cells of one request for views
   std::uint64_t max_pixels = 4'000'000;                    ///< of one exact view
   std::uint64_t max_request_pixels = 64'000'000;           ///< of all views of one request
-  std::size_t max_classes = 254;                           ///< rows of a weight matrix
   std::size_t max_observations = 1024;                     ///< kept at once, all clients together
   std::uint64_t max_observation_bytes = std::uint64_t{512} << 20U;  ///< of those, prepared
   std::size_t max_observations_per_client = 16;
