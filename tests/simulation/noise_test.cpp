@@ -53,7 +53,7 @@ TEST(OdometryNoiseTest, ErrorOfAStraightDriveIsThatOfItsConstantParts) {
   }
 }
 
-TEST(OdometryNoiseTest, FinalErrorIsTheConfiguredShareOfTheWay) {
+TEST(OdometryNoiseTest, FinalErrorIsTheConfiguredShareOfAWayThatLeadsSomewhere) {
   // A drive that goes somewhere: 8 m, a quarter turn, 8 m.
   std::vector<io::StampedPose2> truth{{0.0, {1.0, 2.0, 0.5}}};
   for (int k = 0; k < 340; ++k) {
@@ -67,6 +67,21 @@ TEST(OdometryNoiseTest, FinalErrorIsTheConfiguredShareOfTheWay) {
     const double error_m = distance_m(end, truth.back().pose);
     EXPECT_GE(error_m, 0.9 * 0.05 * 16.0 * 2.0 / 3.0) << seed;
     EXPECT_LE(error_m, 1.1 * 0.05 * 16.0 * 4.0 / 3.0) << seed;
+  }
+}
+
+TEST(OdometryNoiseTest, OnAWayThereAndBackTheErrorIsAtMostTheConfiguredShare) {
+  std::vector<io::StampedPose2> truth{{0.0, {}}};
+  for (int k = 0; k < 360; ++k) {
+    const bool turning = k >= 160 && k < 200;
+    const Pose2 step = turning ? Pose2{0.0, 0.0, kPi / 40.0} : Pose2{0.05, 0.0, 0.0};
+    truth.push_back({truth.back().stamp_s + 0.1, truth.back().pose * step});
+  }
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Rng rng(seed, "odometry");
+    const Pose2 end = simulate_odometry(truth, {}, 1.0, rng).back().pose;
+    EXPECT_GT(distance_m(end, truth.back().pose), 0.05) << seed;
+    EXPECT_LE(distance_m(end, truth.back().pose), 1.1 * 0.05 * 16.0 * 4.0 / 3.0) << seed;
   }
 }
 

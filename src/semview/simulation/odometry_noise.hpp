@@ -19,8 +19,8 @@ struct OdometryNoiseConfig {
   double distance_walk_m = 0.01;  ///< σ of the random part after 1 m of way
   double turn_walk_rad = 0.01;    ///< σ of the random part after 1 m of way or 1 rad of turning
   /// Position error at the end as a share of the way: all sizes are scaled alike, by 1/4 to 4,
-  /// until the error is 2/3 to 4/3 of that. How far errors of one size lead off depends much on the
-  /// way (on one that returns they cancel out). 0: sizes as they are.
+  /// so that the error is 2/3 to 4/3 of that or, on ways that return and let errors cancel, as near
+  /// to it as such a scale comes. 0: sizes as they are.
   double drift_share = 0.05;
 };
 
