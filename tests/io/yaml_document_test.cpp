@@ -103,6 +103,7 @@ TEST(ParseYamlTest, FaultsNameFileAndLine) {
   EXPECT_THAT(parse_error("a: 1\nb: [1, 2\nc: 3\n"), HasSubstr("map.yaml:3: not valid YAML"));
   EXPECT_EQ(parse_error("a: 1\nb: 2\na: 3\n"), "map.yaml:3: key 'a' was given in line 1");
   EXPECT_THAT(parse_error("? [1, 2]\n: 3\n"), HasSubstr("a key must be a plain name"));
+  EXPECT_THAT(parse_error("a:\n\tb: 1\n"), HasSubstr("map.yaml:2: a tab indents this line"));
   EXPECT_THAT(parse_error("a: *nowhere\n"), HasSubstr("map.yaml:1: not valid YAML"));
 }
 

@@ -133,6 +133,12 @@ TEST_F(RosImportTest, OccupiedIsWallFreeIsFloorUnknownIsOutside) {
   EXPECT_EQ(columns.profile(3, 3).ground, check.map->classes.id("floor").value());
 }
 
+TEST_F(RosImportTest, AFolderWhoseNameIsNoIdGivesTheMapOneMadeOfIt) {
+  const Status imported = import_ros_map(folder_ / "ros.yaml", folder_ / "Ros Map 2", {2.4});
+  ASSERT_TRUE(imported) << imported.error().message;
+  EXPECT_EQ(load_map(folder_ / "Ros Map 2")->id, "ros_map_2");
+}
+
 TEST_F(RosImportTest, NegateSwapsBlackAndWhite) {
   write_text(folder_ / "ros.yaml",
              "image: ros.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\nnegate: 1\n"

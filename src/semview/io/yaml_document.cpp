@@ -121,6 +121,18 @@ tl::unexpected<Error> not_a(const YamlNode& node, const Tree& tree, std::string_
   return node.error(fmt::format("{}{} is not {}", subject, shown(tree), expected));
 }
 
+/// The first line with a tab before its text, or 0.
+int first_tabbed_line(std::string_view text) {
+  for (int line = 1; !text.empty(); ++line) {
+    const std::string_view indent = text.substr(0, text.find_first_not_of(" \t"));
+    if (indent.find('\t') != std::string_view::npos && indent.size() < text.size()) return line;
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return 0;
+}
+
 }  // namespace
 
 YamlNode::Kind YamlNode::kind() const { return tree_->kind; }
@@ -272,6 +284,10 @@ Result<YamlNode> parse_yaml(const std::string& text, const std::string& name) {
     tree->line = std::max(tree->line, 1);
     return YamlNode(std::move(tree));
   } catch (const YAML::Exception& exception) {
+    if (const int line = first_tabbed_line(text); line > 0) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("{}:{}: a tab indents this line; YAML wants spaces", name, line));
+    }
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{}:{}: not valid YAML: {}",
                             name,

@@ -15,6 +15,8 @@
 namespace semview::map::detail {
 namespace {
 
+constexpr std::size_t kMaxIdLetters = 64;
+
 /// A text as YAML: bare where that is safe, else in double quotes.
 std::string quoted(const std::string& text) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -61,6 +63,18 @@ std::string class_text(const MapClass& value) {
   return text + "}\n";
 }
 
+/// `name` in the letters of an id, or "" if it is one already.
+std::string id_for(const std::string& name) {
+  std::string id;
+  for (const char letter : name.substr(0, kMaxIdLetters)) {
+    const bool upper = letter >= 'A' && letter <= 'Z';
+    const bool fine = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
+                      letter == '_' || letter == '-';
+    id += upper ? static_cast<char>(letter - 'A' + 'a') : fine ? letter : '_';
+  }
+  return id == name ? std::string() : id;
+}
+
 }  // namespace
 
 std::string map_yaml(const BundleText& text) {
@@ -70,6 +84,7 @@ std::string map_yaml(const BundleText& text) {
   yaml +=
       fmt::format("origin: [{}, {}, {}]\n", text.origin.x_m, text.origin.y_m, text.origin.yaw_rad);
   yaml += "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nsemview:\n  format: 1\n";
+  if (!text.id.empty()) yaml += fmt::format("  id: {}\n", quoted(text.id));
   yaml += fmt::format("  name: {}\n  labels: labels.png\n", quoted(text.name));
   if (!text.ceiling_class.empty()) {
     yaml += fmt::format("  ceiling: {{class: {}, height: {}}}\n",
@@ -97,8 +112,10 @@ Status write_bundle(const BundleText& text,
     return fail(ErrorCode::kUnavailable,
                 fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
   }
+  BundleText named = text;
+  named.id = id_for(std::filesystem::absolute(directory / "").parent_path().filename().string());
   SEMVIEW_TRY_STATUS(io::write_png(directory / "labels.png", labels));
-  SEMVIEW_TRY_STATUS(io::write_text_file(yaml, map_yaml(text)));
+  SEMVIEW_TRY_STATUS(io::write_text_file(yaml, map_yaml(named)));
   SEMVIEW_TRY(const SemanticMap map, load_map(directory));
   return io::write_png(directory / "occupancy.png", occupancy_image(*map.columns()));
 }

@@ -16,6 +16,7 @@ namespace semview::map::detail {
 
 /// What a drawn map's file says.
 struct BundleText {
+  std::string id = {};  ///< "": the folder's name is one
   std::string name;
   std::string comment;  ///< one line, written first
   double resolution_m = 0.0;
@@ -31,7 +32,8 @@ struct BundleText {
 /// The text of a `map.yaml` that names `labels.png` and `occupancy.png`.
 std::string map_yaml(const BundleText& text);
 
-/// Makes `directory` with map.yaml, labels.png and occupancy.png, then loads it.
+/// Makes `directory` with map.yaml, labels.png and occupancy.png, then loads it. If the folder's name
+/// is no id, the map gets one made of it: "Ros Map" becomes ros_map.
 /// @errors kAlreadyExists: there is a map.yaml already; kUnavailable: cannot be written; and those
 /// of `load_map`: the files stay for a look, then.
 Status write_bundle(const BundleText& text,
