@@ -3,11 +3,13 @@
 #include "semview/map/map_checker.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include "map/bundle.hpp"
 #include "semview/io/png.hpp"
@@ -139,7 +141,24 @@ TEST_F(MapCheckerTest, ColourThatIsNone) {
       replaced(map_yaml(), "[255, 6, 82]", "[256, 6, 82]"), 19, {"error: colour value 256"});
 }
 
+TEST_F(MapCheckerTest, EveryBadValueOfAColourIsNamed) {
+  expect_error(replaced(map_yaml(), "[255, 6, 82]", "[256, 6, -1]"),
+               19,
+               {"colour values 256, -1 are not whole numbers in 0..255"});
+  expect_error(replaced(map_yaml(), "[255, 6, 82]", "[255, 6, 82, 1]"),
+               19,
+               {"a list of 4 is not a list of 3 numbers", "for example [120, 120, 120]"});
+}
+
 // Names and ids
+
+TEST_F(MapCheckerTest, ABlankNameIsNone) {
+  for (const std::string blank : {"''", "'  '"}) {
+    expect_error(replaced(map_yaml(), "{name: table", "{name: " + blank),
+                 19,
+                 {"the name of a class is blank", "name: wall"});
+  }
+}
 
 TEST_F(MapCheckerTest, DuplicateName) {
   const MapCheck result = check(replaced(map_yaml(), "{name: ceiling}", "{name: floor}"));
@@ -235,6 +254,13 @@ TEST_F(MapCheckerTest, UnknownClassInAboveBelowCeilingAndGround) {
       replaced(map_yaml(), "class: floor", "class: earth"), 11, {"ground names class earth"});
 }
 
+TEST_F(MapCheckerTest, ReferenceToItself) {
+  expect_error(
+      replaced(map_yaml(), "max_height: 2.1, above: wall}", "max_height: 2.1, above: door}"),
+      17,
+      {"above of class door names the class itself", "wall for example"});
+}
+
 TEST_F(MapCheckerTest, ReferenceToAClassWithoutHeights) {
   expect_error(replaced(map_yaml(), "2.1, above: wall}", "2.1, above: ceiling}"),
                17,
@@ -269,6 +295,43 @@ TEST_F(MapCheckerTest, NewerFormatIsUnimplemented) {
       only(check(replaced(map_yaml(), "format: 1", "format: 2")), Severity::kError);
   expect_words(problem, 6, {"format 2 is not known"});
   EXPECT_EQ(problem.code, ErrorCode::kUnimplemented);
+}
+
+TEST_F(MapCheckerTest, AWrongFormatHidesNothingElse) {
+  for (const std::string format : {"2", "one", "0"}) {
+    std::string yaml = replaced(map_yaml(), "format: 1", "format: " + format);
+    yaml = replaced(yaml, "movable: 0.5", "movable: 5");
+    std::vector<std::string> rows = room();
+    rows[6][4] = '?';
+    const MapCheck result = check(yaml, rows);
+    EXPECT_THAT(text_of(result), HasSubstr("map.yaml:6: error: format"));
+    EXPECT_THAT(text_of(result), HasSubstr("map.yaml:19: error: movable 5"));
+    EXPECT_THAT(text_of(result), HasSubstr("labels.png: pixel (x 4, y 6): error: colour"));
+    EXPECT_EQ(result.report.problems.size(), 3U) << text_of(result);
+  }
+}
+
+TEST_F(MapCheckerTest, WhatOnlyRosToolsReadIsCheckedForThem) {
+  expect_error(
+      replaced(map_yaml(), "negate: 0", "negate: 5"), 4, {"negate 5", "0, 1, false, true"});
+  expect_error(replaced(map_yaml(), "negate: 0", "occupied_thresh: 7"),
+               4,
+               {"occupied_thresh 7 is out of limits", "within 0 to 1"});
+  expect_error(replaced(map_yaml(), "negate: 0", "free_thresh: low"), 4, {"free_thresh: 0.25"});
+  expect_error(replaced(map_yaml(), "negate: 0", "mode: binary"), 4, {"trinary, scale, raw"});
+}
+
+TEST_F(MapCheckerTest, ANumberThatIsNoneIsAnsweredWithAnExample) {
+  for (const std::string bad : {"five", ".nan"}) {
+    const MapCheck result = check(replaced(map_yaml(), "resolution: 0.1", "resolution: " + bad));
+    EXPECT_THAT(text_of(result),
+                HasSubstr("'" + bad +
+                          "' is not a number; write for example "
+                          "`resolution: 0.02`"));
+  }
+  expect_error(replaced(map_yaml(), "[-1.0, 2.0, 0.0]", "[-1.0, 2.0]"),
+               3,
+               {"a list of 2 is not a list of 3 numbers", "origin: [0.0, 0.0, 0.0]", "radians"});
 }
 
 TEST_F(MapCheckerTest, APlainRosMapIsPointedToTheImporter) {
@@ -386,10 +449,28 @@ TEST_F(MapCheckerTest, MissingOrUnreadableImage) {
   const MapProblem missing = only(check_map(folder_.path()), Severity::kError);
   EXPECT_EQ(missing.file.filename(), "labels.png");
   EXPECT_EQ(missing.code, ErrorCode::kNotFound);
+  EXPECT_THAT(missing.remedy, HasSubstr("draw the plan as a PNG there"));
 
   write_text(folder_ / "labels.png", "this is no picture");
   const MapProblem unreadable = only(check_map(folder_.path()), Severity::kError);
   EXPECT_EQ(unreadable.file.filename(), "labels.png");
+}
+
+TEST_F(MapCheckerTest, TransparentPixelsHaveCountAndFirstPixel) {
+  // Grey and alpha, 2 x 2 pixels, of which (1, 0) and (0, 1) are not opaque.
+  const std::array<png_byte, 8> samples{0, 255, 0, 0, 0, 127, 0, 255};
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 2;
+  image.height = 2;
+  image.format = PNG_FORMAT_GA;
+  write_text(folder_ / "map.yaml", map_yaml());
+  ASSERT_NE(png_image_write_to_file(
+                &image, (folder_ / "labels.png").c_str(), 0, samples.data(), 0, nullptr),
+            0);
+  const MapProblem problem = only(check_map(folder_.path()), Severity::kError);
+  EXPECT_THAT(to_string(problem),
+              HasSubstr("labels.png: pixel (x 1, y 0): error: 2 pixels are transparent"));
 }
 
 TEST_F(MapCheckerTest, ProblemsOfFileAndImageAreListedTogether) {

@@ -174,6 +174,12 @@ class ClassRules {
                        const std::string& name,
                        int line) {
     if (name.empty()) return;
+    if (name == field.value.name) {
+      error(line,
+            fmt::format("{} of class {} names the class itself", key, name),
+            "name the class that fills what is left there, wall for example");
+      return;
+    }
     const auto found = by_name_.find(name);
     if (found == by_name_.end()) {
       unknown_class(

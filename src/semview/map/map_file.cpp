@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "semview/io/yaml_document.hpp"
 #include "semview/map/map_limits.hpp"
+#include "semview/map/raster_fields.hpp"
 #include "semview/map/yaml_fields.hpp"
 
 namespace semview::map::detail {
@@ -19,15 +22,21 @@ using Path = std::filesystem::path;
 constexpr double kMaxHeight_m = 10'000.0;
 
 std::optional<Rgb> read_color(YamlFields& fields, const io::YamlNode& node) {
-  const std::optional<std::vector<double>> numbers = fields.take(node.numbers(3));
+  constexpr const char* kRemedy = "write for example [120, 120, 120]";
+  const std::optional<std::vector<double>> numbers = fields.take(node.numbers(3), kRemedy);
   if (!numbers) return std::nullopt;
-  for (const double number : *numbers) {
-    if (number < 0.0 || number > 255.0 || number != std::floor(number)) {
-      fields.error(node.line(),
-                   fmt::format("colour value {} is not a whole number in 0..255", number),
-                   "write for example [120, 120, 120]");
-      return std::nullopt;
-    }
+  std::vector<double> bad;
+  std::ranges::copy_if(*numbers, std::back_inserter(bad), [](double number) {
+    return number < 0.0 || number > 255.0 || number != std::floor(number);
+  });
+  if (!bad.empty()) {
+    fields.error(node.line(),
+                 fmt::format("colour value{} {} {} in 0..255",
+                             bad.size() == 1 ? "" : "s",
+                             fmt::join(bad, ", "),
+                             bad.size() == 1 ? "is not a whole number" : "are not whole numbers"),
+                 kRemedy);
+    return std::nullopt;
   }
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>((*numbers)[i]); };
   return Rgb{byte(0), byte(1), byte(2)};
@@ -115,6 +124,15 @@ void read_heights(ClassField& field, YamlFields& fields) {
   field.height_line = std::max(fields.line_of("min_height"), fields.line_of("max_height"));
 }
 
+/// The name of a class; empty if there is none, as the report says then.
+std::string read_name(YamlFields& fields) {
+  const std::optional<std::string> name = fields.text("name", Need::kRequired, "name: wall");
+  if (!name || name->find_first_not_of(" \t\r\n") != std::string::npos) return name.value_or("");
+  fields.error(
+      fields.line_of("name"), "the name of a class is blank", "write for example `name: wall`");
+  return {};
+}
+
 /// An entry of the class list; notes in `file` what is not known of it.
 std::optional<ClassField> read_class(const io::YamlNode& node, MapFile& file, MapReport& report) {
   YamlFields fields(node, file.classes_path, report);
@@ -142,7 +160,7 @@ std::optional<ClassField> read_class(const io::YamlNode& node, MapFile& file, Ma
   field.above_line = fields.line_of("above");
   field.below_line = fields.line_of("below");
   MapClass& value = field.value;
-  value.name = fields.text("name", Need::kRequired, "name: wall").value_or("");
+  value.name = read_name(fields);
   file.all_named = file.all_named && !value.name.empty();
   if (const auto color = fields.node("color", Need::kOptional)) {
     value.color = read_color(fields, *color);
@@ -153,7 +171,7 @@ std::optional<ClassField> read_class(const io::YamlNode& node, MapFile& file, Ma
   value.above = fields.text("above", Need::kOptional).value_or("");
   value.below = fields.text("below", Need::kOptional).value_or("");
   value.passable = fields.boolean("passable").value_or(value.name == "door");
-  value.movable = fields.number("movable", Need::kOptional).value_or(0.0);
+  value.movable = fields.number("movable", Need::kOptional, "movable: 0.5").value_or(0.0);
   if (!(value.movable >= 0.0 && value.movable <= 1.0)) {
     fields.error(fields.line_of("movable"),
                  fmt::format("movable {} of class {} is not in 0..1", value.movable, value.name),
@@ -197,30 +215,6 @@ void read_classes(MapFile& file, YamlFields& fields, MapReport& report) {
   }
 }
 
-void read_raster(MapFile& file, YamlFields& fields) {
-  file.image = read_text(fields, "image", Need::kOptional, {});
-  if (const auto resolution = fields.number("resolution", Need::kRequired, "resolution: 0.02")) {
-    file.resolution_m = *resolution;
-    if (!is_valid_resolution(*resolution)) {
-      fields.error(fields.line_of("resolution"),
-                   fmt::format("resolution {} m per pixel is out of limits", *resolution),
-                   fmt::format("it is within {} to {}", kMinResolution_m, kMaxResolution_m));
-    }
-  }
-  const auto node = fields.node("origin", Need::kRequired, "origin: [0.0, 0.0, 0.0]");
-  const auto origin = node ? fields.take(node->numbers(3)) : std::nullopt;
-  if (!origin) return;
-  if (std::abs((*origin)[0]) > kMaxOrigin_m || std::abs((*origin)[1]) > kMaxOrigin_m ||
-      std::abs((*origin)[2]) > kTwoPi) {
-    fields.error(
-        node->line(),
-        "origin is out of limits",
-        fmt::format("x and y lie within {} m of 0, the yaw within 2 pi (radians)", kMaxOrigin_m));
-    return;
-  }
-  file.origin = {(*origin)[0], (*origin)[1], wrap_angle((*origin)[2])};
-}
-
 void read_geometry_kind(MapFile& file, YamlFields& fields) {
   file.labels = read_text(fields, "labels", Need::kOptional, {});
   file.mesh = read_text(fields, "mesh", Need::kOptional, {});
@@ -239,11 +233,10 @@ void read_geometry_kind(MapFile& file, YamlFields& fields) {
   }
 }
 
-bool read_format(YamlFields& fields, const MapFile& file, MapReport& report) {
+void read_format(YamlFields& fields, const MapFile& file, MapReport& report) {
   const auto node = fields.node("format", Need::kRequired, "format: 1");
-  const auto format = node ? fields.take(node->integer()) : std::nullopt;
-  if (!format) return false;
-  if (*format == kMapFormat) return true;
+  const auto format = node ? fields.take(node->integer(), "write `format: 1`") : std::nullopt;
+  if (!format || *format == kMapFormat) return;
   MapProblem problem = line_problem(Severity::kError,
                                     file.path,
                                     node->line(),
@@ -251,7 +244,6 @@ bool read_format(YamlFields& fields, const MapFile& file, MapReport& report) {
                                     fmt::format("this version reads format {}", kMapFormat));
   problem.code = ErrorCode::kUnimplemented;
   report.problems.push_back(std::move(problem));
-  return false;
 }
 
 }  // namespace
@@ -273,15 +265,9 @@ std::optional<MapFile> read_map_file(const Path& path, MapReport& report) {
   MapFile file;
   file.path = path;
   YamlFields fields(*block, path, report);
-  const auto expect_keys = [&] {
-    fields.expect_keys(
-        {"format", "id", "name", "labels", "mesh", "ceiling", "ground", "outside", "classes"});
-  };
-  // Of a newer format the keys are not known; but one that is missing may be misspelt.
-  const bool has_format = block->find("format").has_value();
-  if (!has_format) expect_keys();
-  if (!read_format(fields, file, report)) return std::nullopt;
-  if (has_format) expect_keys();
+  fields.expect_keys(
+      {"format", "id", "name", "labels", "mesh", "ceiling", "ground", "outside", "classes"});
+  read_format(fields, file, report);
   read_identity(file, fields);
   read_geometry_kind(file, fields);
   const Need drawn = file.is_mesh() ? Need::kOptional : Need::kRequired;

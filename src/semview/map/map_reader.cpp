@@ -105,21 +105,53 @@ Palette palette_of(const MapFile& file) {
   return palette;
 }
 
+/// The colours alone, or nothing if a pixel is transparent: what shows there is not said.
+std::optional<RgbImage> opaque_colors(const Image<io::Rgba>& pixels,
+                                      const Path& path,
+                                      MapReport& report) {
+  RgbImage colors(pixels.rows(), pixels.columns());
+  std::optional<PixelIndex> first;
+  std::size_t transparent = 0;
+  for (int row = 0; row < pixels.rows(); ++row) {
+    for (int column = 0; column < pixels.columns(); ++column) {
+      const io::Rgba pixel = pixels.at(row, column);
+      colors.at(row, column) = {pixel.r, pixel.g, pixel.b};
+      if (pixel.a == 255) continue;
+      ++transparent;
+      if (!first) first = PixelIndex{row, column};
+    }
+  }
+  if (!first) return colors;
+  MapProblem problem =
+      file_problem(Severity::kError,
+                   path,
+                   transparent == 1 ? std::string("1 pixel is transparent")
+                                    : fmt::format("{} pixels are transparent", transparent),
+                   "every pixel has an opaque colour; export without an alpha channel");
+  problem.pixel = first;
+  report.problems.push_back(std::move(problem));
+  return std::nullopt;
+}
+
 /// The label image, or nothing and the reason in the report.
 std::optional<RgbImage> read_labels(const MapFile& file, const Path& path, MapReport& report) {
   const Result<io::PngSize> size = io::png_size(path);
   if (!size) {
-    report.problems.push_back(problem_of(path, size.error()));
+    MapProblem problem = problem_of(path, size.error());
+    if (problem.code == ErrorCode::kNotFound) {
+      problem.remedy = "draw the plan as a PNG there, or write its name as `labels:`";
+    }
+    report.problems.push_back(std::move(problem));
     return std::nullopt;
   }
   check_size(file, path, *size, report);
   check_occupancy(file, *size, report);
-  Result<RgbImage> labels = io::read_png_rgb(path);
-  if (!labels) {
-    report.problems.push_back(problem_of(path, labels.error()));
+  const Result<io::RgbaPicture> picture = io::read_png_rgba(path);
+  if (!picture) {
+    report.problems.push_back(problem_of(path, picture.error()));
     return std::nullopt;
   }
-  return *std::move(labels);
+  return opaque_colors(picture->pixels, path, report);
 }
 
 std::optional<ColumnMap> read_columns(const MapFile& file,

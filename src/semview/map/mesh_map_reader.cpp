@@ -34,7 +34,11 @@ std::optional<MeshGeometry> read_mesh(const MapFile& file, MapReport& report) {
   const Path path = file.path.parent_path() / file.mesh.text;
   Result<LabelledMesh> labelled = read_glb(path);
   if (!labelled) {
-    report.problems.push_back(problem_of(path, labelled.error()));
+    MapProblem problem = problem_of(path, labelled.error());
+    if (problem.code == ErrorCode::kNotFound) {
+      problem.remedy = "put the mesh there, or write its name as `mesh:`";
+    }
+    report.problems.push_back(std::move(problem));
     return std::nullopt;
   }
   std::vector<bool> drawn;

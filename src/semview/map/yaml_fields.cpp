@@ -7,6 +7,13 @@
 #include "semview/map/spelling.hpp"
 
 namespace semview::map::detail {
+namespace {
+
+std::string remedy_of(std::string_view example) {
+  return example.empty() ? std::string() : fmt::format("write for example `{}`", example);
+}
+
+}  // namespace
 
 std::optional<io::YamlNode> YamlFields::node(std::string_view key,
                                              Need need,
@@ -14,9 +21,7 @@ std::optional<io::YamlNode> YamlFields::node(std::string_view key,
   std::optional<io::YamlNode> found = mapping_.find(key);
   if (found && found->is_null()) found.reset();
   if (!found && need == Need::kRequired && !misspelt(key)) {
-    error(line(),
-          fmt::format("{} is missing", key),
-          example.empty() ? std::string() : fmt::format("write for example `{}`", example));
+    error(line(), fmt::format("{} is missing", key), remedy_of(example));
   }
   return found;
 }
@@ -25,14 +30,14 @@ std::optional<double> YamlFields::number(std::string_view key,
                                          Need need,
                                          std::string_view example) {
   const std::optional<io::YamlNode> found = node(key, need, example);
-  return found ? take(found->number()) : std::nullopt;
+  return found ? take(found->number(), remedy_of(example)) : std::nullopt;
 }
 
 std::optional<std::string> YamlFields::text(std::string_view key,
                                             Need need,
                                             std::string_view example) {
   const std::optional<io::YamlNode> found = node(key, need, example);
-  return found ? take(found->text()) : std::nullopt;
+  return found ? take(found->text(), remedy_of(example)) : std::nullopt;
 }
 
 std::optional<bool> YamlFields::boolean(std::string_view key) {

@@ -37,11 +37,12 @@ class YamlFields {
 
   void error(int line, std::string message, std::string remedy = {});
   void warning(int line, std::string message, std::string remedy = {});
-  /// The value of a result, or its error added to the report.
+  /// The value of a result, or its error added to the report with `remedy` as what would be right.
   template <typename T>
-  std::optional<T> take(Result<T> result) {
+  std::optional<T> take(Result<T> result, std::string remedy = {}) {
     if (result) return *std::move(result);
     report_.problems.push_back(problem_of(file_, result.error()));
+    if (!remedy.empty()) report_.problems.back().remedy = std::move(remedy);
     return std::nullopt;
   }
 
