@@ -75,12 +75,12 @@ ordered_json pose_json(const ScoreRequest& request,
   const Pose2& pose = request.poses[i];
   ordered_json entry{{"x_m", pose.x_m},
                      {"y_m", pose.y_m},
-                     {"yaw_deg", deg_from_rad(pose.yaw_rad)},
+                     {"yaw_deg", shown_deg(pose.yaw_rad)},
                      {"similarity", number_or_null(similarity_of(batch, batch.sums[i], clip))}};
   if (batch.sums[i] == kNoView) return entry;
   entry["sum"] = batch.sums[i];
   if (!batch.best_heading.empty()) {
-    entry["best_yaw_deg"] = deg_from_rad(PoseGrid::heading_yaw_rad(batch.best_heading[i]));
+    entry["best_yaw_deg"] = shown_deg(PoseGrid::heading_yaw_rad(batch.best_heading[i]));
   }
   if (request.whole_curve) {
     ordered_json curve = ordered_json::array();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview simulate`.
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -37,6 +39,23 @@ Result<map::SemanticMap> load_world(const Options& options, simulation::Simulati
   return world;
 }
 
+/// The module names its own fields; people typed options.
+Status check_options(const simulation::SimulationConfig& config) {
+  const Status valid = simulation::validate(config);
+  if (valid) return {};
+  static const std::map<std::string, std::string> kOptions{{"frames", "--steps"},
+                                                           {"frame_distance_m", "--frame-distance"},
+                                                           {"noise_level", "--noise"},
+                                                           {"missing_share", "--missing"},
+                                                           {"azimuth_width", "--fov"},
+                                                           {"eye_height_m", "--eye-height"}};
+  Error error = valid.error();
+  const auto known = kOptions.find(error.field);
+  error.field = known != kOptions.end() ? known->second : "--" + error.field;
+  error.message = fmt::format("{}: {}", error.field, error.message);
+  return fail(std::move(error));
+}
+
 void print_text(const Options& options, const simulation::SimulationReport& run) {
   fmt::print("{}: {} frames over {:.1f} m, {:.0f} s of the robot's time\n",
              options.output,
@@ -58,22 +77,21 @@ void print_text(const Options& options, const simulation::SimulationReport& run)
 }
 
 void print_json(const Options& options, const simulation::SimulationReport& run) {
-  const nlohmann::json json{{"out", options.output},
-                            {"seed", options.config.seed},
-                            {"frames", run.frames},
-                            {"way_m", run.way_m},
-                            {"duration_s", run.duration_s},
-                            {"start",
-                             {{"x_m", run.start.x_m},
-                              {"y_m", run.start.y_m},
-                              {"yaw_deg", deg_from_rad(run.start.yaw_rad)}}},
-                            {"odometry_error_m", run.odometry_error_m},
-                            {"wrong_label_share", run.wrong_label_share},
-                            {"objects", run.objects},
-                            {"furniture", run.furniture},
-                            {"missing", run.missing},
-                            {"opened_doors", run.opened_doors},
-                            {"min_clearance_m", run.min_clearance_m}};
+  const nlohmann::json json{
+      {"out", options.output},
+      {"seed", options.config.seed},
+      {"frames", run.frames},
+      {"way_m", run.way_m},
+      {"duration_s", run.duration_s},
+      {"start",
+       {{"x_m", run.start.x_m}, {"y_m", run.start.y_m}, {"yaw_deg", shown_deg(run.start.yaw_rad)}}},
+      {"odometry_error_m", run.odometry_error_m},
+      {"wrong_label_share", run.wrong_label_share},
+      {"objects", run.objects},
+      {"furniture", run.furniture},
+      {"missing", run.missing},
+      {"opened_doors", run.opened_doors},
+      {"min_clearance_m", run.min_clearance_m}};
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -84,6 +102,7 @@ Status simulate(const Options& options) {
   config.camera.elevation_min_rad = rad_from_deg(elevation[0]);
   config.camera.elevation_max_rad = rad_from_deg(elevation[1]);
   config.camera.azimuth_width_rad = rad_from_deg(options.field_of_view_deg);
+  SEMVIEW_TRY_STATUS(check_options(config));
   SEMVIEW_TRY_STATUS(io::check_output_folder(options.output));
   SEMVIEW_TRY(const map::SemanticMap world, load_world(options, config));
   SEMVIEW_TRY(const simulation::SimulationReport run,

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "semview/geometry/angle.hpp"
+
 namespace semview::cli {
 
 int report(const Status& status) {
@@ -17,6 +19,8 @@ int report(const Status& status) {
   const bool usage = error.code == ErrorCode::kInvalidArgument && error.field.starts_with("--");
   return usage ? kExitUsage : kExitFailed;
 }
+
+double shown_deg(double angle_rad) { return std::round(deg_from_rad(angle_rad) * 1e9) / 1e9; }
 
 Result<std::vector<double>> parse_numbers(std::string_view option,
                                           const std::string& text,

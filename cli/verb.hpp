@@ -35,6 +35,9 @@ void add_localize_verb(CLI::App& app, int& exit_code);
 /// `kExitUsage` for `kInvalidArgument` with a field that starts with "--".
 int report(const Status& status);
 
+/// Degrees for people and scripts, to a billionth: -120, where pi leaves -119.99999999999999.
+double shown_deg(double angle_rad);
+
 /// The comma-separated numbers of an option, for example `1.5,-2,90`.
 /// @errors kInvalidArgument: not exactly `count` finite numbers.
 Result<std::vector<double>> parse_numbers(std::string_view option,

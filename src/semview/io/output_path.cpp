@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/io/output_path.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -64,6 +66,18 @@ Status check_output_file(const Path& path) {
     return cannot_write(path, errno);
   }
   return check_folder(path, folder);
+}
+
+Status check_output_png(const Path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(
+      ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".png") return check_output_file(path);
+  return fail(
+      Error{ErrorCode::kInvalidArgument,
+            fmt::format("{}: is not the name of a PNG, which is what is written", path.string()),
+            {},
+            "end the name in .png"});
 }
 
 Status check_output_folder(const Path& path) {
