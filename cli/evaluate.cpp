@@ -235,9 +235,8 @@ Status run(const Options& options) {
   if (options.final_within_m) {
     SEMVIEW_TRY_STATUS(check_limit("--final-within", *options.final_within_m));
   }
-  for (const std::string* file : {&options.svg, &options.png}) {
-    if (!file->empty()) SEMVIEW_TRY_STATUS(io::check_output_file(*file));
-  }
+  if (!options.svg.empty()) SEMVIEW_TRY_STATUS(io::check_output_file(options.svg));
+  if (!options.png.empty()) SEMVIEW_TRY_STATUS(io::check_output_png(options.png));
   SEMVIEW_TRY(const Evaluation evaluation, evaluate(options));
   if (options.json) {
     print_json(options, evaluation);

@@ -63,7 +63,7 @@ ordered_json describe(const service::Site& site, const similarity::HeatMap& heat
       {"best",
        {{"x_m", pose.x_m},
         {"y_m", pose.y_m},
-        {"yaw_deg", deg_from_rad(pose.yaw_rad)},
+        {"yaw_deg", shown_deg(pose.yaw_rad)},
         {"similarity", std::isnan(similarity) ? ordered_json(nullptr) : ordered_json(similarity)}}},
       {"cells",
        {{"memory", heat.origins.memory},
@@ -85,7 +85,9 @@ RgbImage draw(const service::Site& site, const similarity::HeatMap& heat) {
   picture.y_min_m = heat.origin.iy * PoseGrid::kCellSize_m;
   picture.best = PoseGrid::center(heat.best());
   picture.title = site.map().name;
-  if (Result<picture::Plan> plan = plan_backdrop(site.map())) picture.plan = *std::move(plan);
+  if (site.map().columns() != nullptr) {  // of a mesh the values themselves show the free cells
+    if (Result<picture::Plan> plan = plan_backdrop(site.map())) picture.plan = *std::move(plan);
+  }
   return picture::draw_heat_map(picture);
 }
 
@@ -102,7 +104,7 @@ Status heatmap(const Options& options) {
                   "--headings {}: expected a divisor of {}", options.headings, PoseGrid::kHeadings),
               "--headings"});
   }
-  SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
+  SEMVIEW_TRY_STATUS(io::check_output_png(options.output));
   if (!options.npy.empty()) SEMVIEW_TRY_STATUS(io::check_output_file(options.npy));
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
   SEMVIEW_TRY(const Observation observation, read(options.observation, site->profile().camera));
@@ -137,10 +139,12 @@ Status heatmap(const Options& options) {
     return {};
   }
   const ordered_json& best = about["best"];
-  fmt::print("{}: {} cells, best {} at {:g},{:g},{:g}\n",
+  fmt::print("{}: {} cell{}, best {} at {:g},{:g},{:g}\n",
              options.output,
              cells.size(),
-             best["similarity"].dump(),
+             cells.size() == 1 ? "" : "s",
+             best["similarity"].is_null() ? std::string("unknown")
+                                          : fmt::format("{:.4f}", best["similarity"].get<double>()),
              best["x_m"].get<double>(),
              best["y_m"].get<double>(),
              best["yaw_deg"].get<double>());

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "map_verbs.hpp"
+#include "plan_backdrop.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/map/occupancy.hpp"
@@ -24,36 +25,47 @@ struct Options {
   double height_m = 1.2;
 };
 
-Result<map::SemanticMap> load_drawn(const Options& options) {
-  SEMVIEW_TRY(map::SemanticMap map, map::load_map(options.map, options.load));
-  if (map.columns() == nullptr) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{}: is a mesh map, which has no drawing", options.map));
-  }
-  return map;
-}
-
-Status preview(const Options& options) {
-  SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
-  SEMVIEW_TRY(const map::SemanticMap map, load_drawn(options));
-  const map::ColumnMap& columns = *map.columns();
+/// A drawn map in its own colours, a mesh by its free cells.
+Result<picture::ClassPlanPicture> picture_of(const map::SemanticMap& map) {
   picture::ClassPlanPicture drawing;
   drawing.title = map.name;
+  if (map.columns() == nullptr) {
+    SEMVIEW_TRY(drawing.plan, free_cells_plan(map));
+    drawing.classes.push_back({kFreeColour, "free"});
+    return drawing;
+  }
+  const map::ColumnMap& columns = *map.columns();
   drawing.plan = {plan_image(map, columns), columns.resolution_m, columns.origin};
   for (const map::MapClass& details : map.class_details) {
     if (details.color) drawing.classes.push_back({*details.color, details.name});
   }
+  return drawing;
+}
+
+Status preview(const Options& options) {
+  SEMVIEW_TRY_STATUS(io::check_output_png(options.output));
+  SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
+  SEMVIEW_TRY(const picture::ClassPlanPicture drawing, picture_of(map));
   SEMVIEW_TRY_STATUS(io::write_png(options.output, draw_class_plan(drawing)));
+  const picture::Plan& plan = drawing.plan;
   fmt::print("{}: a plan of {:.1f} x {:.1f} m\n",
              options.output,
-             columns.columns() * columns.resolution_m,
-             columns.rows() * columns.resolution_m);
+             plan.image.columns() * plan.resolution_m,
+             plan.image.rows() * plan.resolution_m);
   return {};
 }
 
 Status occupancy(const Options& options) {
-  if (!options.output.empty()) SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
-  SEMVIEW_TRY(const map::SemanticMap map, load_drawn(options));
+  if (!options.output.empty()) SEMVIEW_TRY_STATUS(io::check_output_png(options.output));
+  SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
+  if (map.columns() == nullptr) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("{}: is a mesh map, which has no drawing and so no resolution "
+                                  "and origin for an occupancy image",
+                                  options.map),
+                      {},
+                      "`semview map preview` shows its free cells"});
+  }
   const std::string output =
       options.output.empty() ? (map.directory / "occupancy.png").string() : options.output;
   SEMVIEW_TRY_STATUS(io::write_png(output, occupancy_image(*map.columns(), options.height_m)));
@@ -74,7 +86,7 @@ void add_map_pictures(CLI::App& map, int& exit_code) {
   CLI::App* preview_verb = map.add_subcommand(
       "preview",
       "Draw a plan in its classes' colours as semview reads it, outside in white, with a legend, "
-      "metres along the edges and a scale bar.");
+      "metres along the edges and a scale bar. Of a mesh: the free cells.");
   const auto preview_options = std::make_shared<Options>();
   add_common(*preview_verb, *preview_options);
   preview_verb->add_option("-o,--output", preview_options->output, "PNG to write")->required();

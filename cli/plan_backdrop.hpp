@@ -7,8 +7,16 @@
 
 namespace semview::cli {
 
-/// The plan in quiet colours, floor nearly white, so that what is drawn on it stands out.
-/// @errors kFailedPrecondition: a mesh map, which has no plan.
+inline constexpr Rgb kFreeColour{226, 221, 208};
+
+/// What a mesh has in the place of a plan: its free cells for an eye 1.2 m above the ground, in
+/// `kFreeColour` on white.
+/// @errors those of `cell_grid_of`.
+Result<picture::Plan> free_cells_plan(const map::SemanticMap& map);
+
+/// The plan in quiet colours, floor nearly white, so that what is drawn on it stands out; a mesh's
+/// free cells.
+/// @errors those of `free_cells_plan`.
 Result<picture::Plan> plan_backdrop(const map::SemanticMap& map);
 
 }  // namespace semview::cli

@@ -241,7 +241,7 @@ Status show(const Options& options) {
                                   &options.range_file,
                                   &options.image_file,
                                   &options.range_image_file}) {
-    if (!file->empty()) SEMVIEW_TRY_STATUS(io::check_output_file(*file));
+    if (!file->empty()) SEMVIEW_TRY_STATUS(io::check_output_png(*file));
   }
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
   SEMVIEW_TRY(const View view, cast(*site, options, pose));

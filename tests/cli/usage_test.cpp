@@ -70,6 +70,26 @@ TEST_F(UsageTest, AStartFarFromTheMapIsRefusedWithTheMapsExtent) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "est.tum"));
 }
 
+TEST_F(UsageTest, ASimulationThatIsNoneIsRefusedByItsOption) {
+  const auto refused = [this](const std::string& option, const std::string& value) {
+    expect_usage({"simulate", kMap, "--out", file("log"), option, value}, option + ": ");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "log"));
+  };
+  refused("--steps", "0");
+  refused("--fov", "700");
+  refused("--frame-distance", "nan");
+  refused("--columns", "7");
+  refused("--noise", "-1");
+}
+
+TEST_F(UsageTest, APictureIsNotWrittenUnderAnotherKindsName) {
+  const std::string words = "x.jpg: is not the name of a PNG";
+  expect_failure({"map", "preview", kMap, "-o", file("x.jpg")}, words);
+  expect_failure({"map", "occupancy", kMap, "-o", file("x.jpg")}, words);
+  expect_failure({"view", kMap, "--pose", "4.5,-13.2,0", "--image", file("x.jpg")}, words);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.jpg"));
+}
+
 TEST_F(UsageTest, NumbersMustBeFinite) {
   expect_usage({"view", kMap, "--pose", "nan,1,2"}, "--pose nan,1,2: expected 3 finite numbers");
   expect_usage({"evaluate", "run", "--log", "x", "y.tum", "--final-within", "nan"},
