@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -22,6 +23,7 @@
 #include "semview/io/output_path.hpp"
 #include "semview/io/run_log.hpp"
 #include "semview/io/text_file.hpp"
+#include "stop_signals.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -72,8 +74,12 @@ std::function<void(double)> pacer(double rate) {
   return [rate, first](double stamp_s) mutable {
     if (!first) first.emplace(stamp_s, std::chrono::steady_clock::now());
     const std::chrono::duration<double> after((stamp_s - first->first) / rate);
-    std::this_thread::sleep_until(
-        first->second + std::chrono::duration_cast<std::chrono::steady_clock::duration>(after));
+    const auto due =
+        first->second + std::chrono::duration_cast<std::chrono::steady_clock::duration>(after);
+    while (!stop_asked() && std::chrono::steady_clock::now() < due) {
+      std::this_thread::sleep_until(
+          std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
+    }
   };
 }
 
@@ -88,6 +94,24 @@ Status write_outputs(const LocalizeOptions& options,
   beside = track;
   return io::write_text_file(beside.replace_extension(".particles.csv"),
                              robot::particles_csv(particles));
+}
+
+/// A run that ends early leaves the estimates up to there.
+Status end_early(const LocalizeOptions& options,
+                 const robot::Drive& so_far,
+                 const localization::ParticleSet& particles,
+                 Error error) {
+  if (so_far.frames.empty()) return fail(std::move(error));
+  if (Progress::on_terminal()) fmt::print(stderr, "\n");
+  const Status written = write_outputs(options, so_far, particles);
+  const std::string kept = written
+                               ? fmt::format("{}: has the estimates of the {} frame{} before it",
+                                             options.output,
+                                             so_far.frames.size(),
+                                             so_far.frames.size() == 1 ? "" : "s")
+                               : written.error().message;
+  error.hint += error.hint.empty() ? kept : "; " + kept;
+  return fail(std::move(error));
 }
 
 void print_summary(const LocalizeOptions& options,
@@ -124,14 +148,14 @@ void print_summary(const LocalizeOptions& options,
           {"state", name(last.state)},
           {"x_m", pose.x_m},
           {"y_m", pose.y_m},
-          {"yaw_deg", deg_from_rad(pose.yaw_rad)},
+          {"yaw_deg", shown_deg(pose.yaw_rad)},
           {"sigma_m", sigma_m},
           {"weight", last.estimate.weight}}}};
     fmt::print("{}\n", summary.dump(2));
     return;
   }
   fmt::print(
-      "{}: {} frames, {} scored, {} stale{}{}; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} "
+      "{}: {} frames, {} scored, {} stale{}{}{}; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} "
       "m); "
       "cells: {} memory, {} disk, {} cast; weights: {}\n",
       options.output,
@@ -140,6 +164,9 @@ void print_summary(const LocalizeOptions& options,
       stale,
       unseen > 0 ? fmt::format(", {} unseen", unseen) : "",
       uninformative > 0 ? fmt::format(", {} uninformative", uninformative) : "",
+      drive.frames_without_odometry > 0
+          ? fmt::format(", {} more left out, without odometry", drive.frames_without_odometry)
+          : "",
       pose.x_m,
       pose.y_m,
       deg_from_rad(pose.yaw_rad),
@@ -159,20 +186,26 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
   SEMVIEW_TRY(const Scorer scorer, open_scorer(options, log.setup.classes));
   SEMVIEW_TRY(localization::ParticleSet start, first_particles(options, scorer.free_cells));
 
+  ask_to_stop_on_signals();
   if (!Progress::on_terminal()) {
     log_info(fmt::format("localizing {} frames; weights: {}", log.frames.size(), scorer.weights));
   }
   robot::Localizer localizer(config, *scorer.source, motion, std::move(start), options.seed);
   Progress progress;
+  robot::Drive so_far;
   robot::PlayerHooks hooks;
   hooks.wait_until = pacer(options.rate);
   hooks.on_frame = [&](const robot::FrameReport& report, std::size_t done, std::size_t total) {
     progress.show(report, done, total);
+    so_far.frames.push_back(report);
   };
-  SEMVIEW_TRY(const robot::Drive drive,
-              robot::play(log, scorer.source->profile().camera, localizer, hooks));
-  SEMVIEW_TRY_STATUS(write_outputs(options, drive, localizer.particles()));
-  print_summary(options, scorer, drive);
+  hooks.stopped = stop_asked;
+  Result<robot::Drive> drive = robot::play(log, scorer.source->profile().camera, localizer, hooks);
+  if (!drive) {
+    return end_early(options, so_far, localizer.particles(), std::move(drive).error());
+  }
+  SEMVIEW_TRY_STATUS(write_outputs(options, *drive, localizer.particles()));
+  print_summary(options, scorer, *drive);
   if (scorer.site) log_unusable_records(*scorer.site, options.site.cache_directory);
   return {};
 }

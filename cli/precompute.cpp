@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/service/precompute.hpp"
 
-#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -16,21 +15,11 @@
 #include "semview/cache/lmdb_store.hpp"
 #include "semview/service/site.hpp"
 #include "site_options.hpp"
+#include "stop_signals.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
 namespace {
-
-volatile std::sig_atomic_t g_stop_asked = 0;
-
-/// The first Ctrl-C (or SIGTERM) asks, a second one kills.
-void ask_to_stop_on_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { g_stop_asked = 1; };
-  action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 struct Options {
   SiteOptions site;
@@ -198,7 +187,7 @@ Result<int> run(const Options& options) {
   Result<service::PrecomputeResult> result = service::run_precompute(
       *site, plan, stop.get_token(), [&](const service::PrecomputeProgress& progress) {
         line.show(progress);
-        if (g_stop_asked != 0) stop.request_stop();
+        if (stop_asked()) stop.request_stop();
       });
   line.finish();
   if (!result) return fail(std::move(result).error());

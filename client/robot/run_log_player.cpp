@@ -24,6 +24,10 @@ Result<Drive> play(const io::RunLog& log,
     }
     frame.odom_from_robot = *odometry;
     if (hooks.wait_until) hooks.wait_until(frame.stamp_s);
+    if (hooks.stopped && hooks.stopped()) {
+      return fail(ErrorCode::kCancelled,
+                  fmt::format("stopped before frame {} of {}", i + 1, log.frames.size()));
+    }
     if (!log.frames[i].labels.empty()) {
       SEMVIEW_TRY(frame.observation, io::read_frame(log, i, camera));
     }

@@ -17,6 +17,8 @@ namespace semview::robot {
 struct PlayerHooks {
   /// Called before the frame of this stamp is played, to keep the log's pace; a robot's clock.
   std::function<void(double stamp_s)> wait_until = {};
+  /// Asked before each frame; true ends the run with kCancelled.
+  std::function<bool()> stopped = {};
   /// Called after each frame; `done` of `total` frames.
   std::function<void(const FrameReport& report, std::size_t done, std::size_t total)> on_frame = {};
 };
@@ -30,7 +32,8 @@ struct Drive {
 /// `camera`. Frames outside the time that odometry covers are left out and counted; a frame without
 /// labels is played without an observation.
 /// @errors kInvalidArgument: no frame has odometry; those of `io::read_frame` and
-/// `Localizer::advance`, with the frame's number.
+/// `Localizer::advance`, with the frame's number; kCancelled: `hooks.stopped`. What was
+/// reported to `hooks.on_frame` before it is the caller's to keep.
 Result<Drive> play(const io::RunLog& log,
                    const PanoramaCamera& camera,
                    Localizer& localizer,
