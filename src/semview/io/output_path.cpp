@@ -69,10 +69,11 @@ Status check_output_file(const Path& path) {
 }
 
 Status check_output_png(const Path& path) {
+  SEMVIEW_TRY_STATUS(check_output_file(path));
   std::string ending = path.extension().string();
   std::ranges::transform(
       ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".png") return check_output_file(path);
+  if (ending.empty() || ending == ".png") return {};
   return fail(
       Error{ErrorCode::kInvalidArgument,
             fmt::format("{}: is not the name of a PNG, which is what is written", path.string()),

@@ -19,7 +19,7 @@ Status check_output_folder(const std::filesystem::path& path);
 tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_number);
 
 /// As `check_output_file`, for a picture that is written as PNG whatever its name says.
-/// @errors also kInvalidArgument: the name ends otherwise than in `.png`.
+/// @errors also kInvalidArgument: the name has another ending than `.png`.
 Status check_output_png(const std::filesystem::path& path);
 
 }  // namespace semview::io
