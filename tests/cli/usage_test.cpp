@@ -116,7 +116,7 @@ TEST_F(UsageTest, AnOutputThatCannotBeWrittenIsToldBeforeTheWork) {
   expect_failure({"view", map, "--pose", "0,0,0", "--image", missing}, words);
   expect_failure({"map", "preview", map, "-o", missing}, words);
   expect_failure({"map", "occupancy", map, "-o", missing}, words);
-  expect_failure({"map", "export", map, missing}, words);
+  expect_failure({"map", "export", map, missing + ".glb"}, words);
   expect_failure({"heatmap", map, "--obs", "o", "--weights", "w.csv", "-o", missing}, words);
   expect_failure({"evaluate", "run", "--log", "x", "y.tum", "--svg", missing}, words);
   expect_failure({"localize", "--log", "x", "--map", map, "--global", "-o", missing}, words);
