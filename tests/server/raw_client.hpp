@@ -29,7 +29,6 @@ class RawClient {
                      int unread_replies = 100'000)
       : socket_(context_, type) {
     socket_.set(zmq::sockopt::linger, 0);
-    socket_.set(zmq::sockopt::rcvtimeo, 20'000);
     socket_.set(zmq::sockopt::sndhwm, 100'000);
     socket_.set(zmq::sockopt::rcvhwm, unread_replies);
     socket_.connect(endpoint);
@@ -68,7 +67,8 @@ class RawClient {
     return line_.recv(event).has_value();
   }
 
-  std::optional<RawReply> receive() {
+  std::optional<RawReply> receive(std::chrono::milliseconds patience = std::chrono::seconds(20)) {
+    socket_.set(zmq::sockopt::rcvtimeo, static_cast<int>(patience.count()));
     RawReply reply;
     std::vector<std::string> frames;
     zmq::message_t frame;

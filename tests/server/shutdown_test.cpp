@@ -24,10 +24,12 @@ TEST_F(ShutdownTest, DrainAnswersWhatIsInsideAndRefusesTheRest) {
   ASSERT_TRUE(eventually([this] { return server_->counters().in_flight == kCount; }));
   auto drained = std::async(std::launch::async, [this] { return server_->drain(seconds(60)); });
   RawClient late(server_->endpoint());
-  // Nothing inside can end yet, so the server stays until this one has been refused.
+  // Nothing inside can end yet, so the server stays until a late one has been refused. One that
+  // came before the drain began may have to wait for those inside.
   ASSERT_TRUE(eventually([&] {
-    const RawReply reply = late.ask(RawClient::header("ListMaps"), "");
-    return reply.header.error().code() == v1::ERROR_CODE_UNAVAILABLE;
+    late.send(RawClient::header("ListMaps"), "");
+    const auto reply = late.receive(milliseconds(100));
+    return reply && reply->header.error().code() == v1::ERROR_CODE_UNAVAILABLE;
   }));
   held.release();
   EXPECT_TRUE(drained.get());

@@ -32,8 +32,8 @@ struct BundleText {
 /// The text of a `map.yaml` that names `labels.png` and `occupancy.png`.
 std::string map_yaml(const BundleText& text);
 
-/// Makes `directory` with map.yaml, labels.png and occupancy.png, then loads it. If the folder's name
-/// is no id, the map gets one made of it: "Ros Map" becomes ros_map.
+/// Makes `directory` with map.yaml, labels.png and occupancy.png, then loads it. If the folder's
+/// name is no id, the map gets one made of it: "Ros Map" becomes ros_map.
 /// @errors kAlreadyExists: there is a map.yaml already; kUnavailable: cannot be written; and those
 /// of `load_map`: the files stay for a look, then.
 Status write_bundle(const BundleText& text,
