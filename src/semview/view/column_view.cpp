@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/view/column_view.hpp"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +11,31 @@
 #include "semview/geometry/pose_grid.hpp"
 
 namespace semview {
+namespace {
+
+bool meets_nothing(const RunPlane& plane) { return plane.a_per_m == 0.0F && plane.b_per_m == 0.0F; }
+
+/// Null if every run has the plane that its class asks for.
+const char* wrong_with_planes(const std::vector<Run>& runs, const std::vector<RunPlane>& planes) {
+  if (planes.empty()) return nullptr;
+  if (planes.size() != runs.size()) return "view: not one plane a run";
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!std::isfinite(planes[i].a_per_m) || !std::isfinite(planes[i].b_per_m)) {
+      return "view: a plane is not finite";
+    }
+    if (meets_nothing(planes[i]) != (runs[i].label == kNoHit)) {
+      return "view: a plane does not fit its run's class";
+    }
+  }
+  return nullptr;
+}
+
+float range_m(const RunPlane& plane, double cosine, double sine) {
+  const double inverse = plane.a_per_m * cosine + plane.b_per_m * sine;
+  return inverse > 0.0 ? static_cast<float>(1.0 / inverse) : std::numeric_limits<float>::infinity();
+}
+
+}  // namespace
 
 ColumnView ColumnView::from_labels(const LabelImage& labels) {
   ColumnView view;
@@ -29,13 +56,15 @@ ColumnView ColumnView::from_labels(const LabelImage& labels) {
 
 Result<ColumnView> ColumnView::from_runs(int rows,
                                          std::vector<std::uint32_t> first_run,
-                                         std::vector<Run> runs) {
+                                         std::vector<Run> runs,
+                                         std::vector<RunPlane> planes) {
   const auto broken = [](std::size_t column, const char* what) {
     return fail(ErrorCode::kDataLoss, fmt::format("view: column {}: {}", column, what));
   };
   if (first_run.empty() || first_run.front() != 0 || first_run.back() != runs.size()) {
     return fail(ErrorCode::kDataLoss, "view: run offsets do not cover the runs");
   }
+  if (const char* wrong = wrong_with_planes(runs, planes)) return fail(ErrorCode::kDataLoss, wrong);
   for (std::size_t c = 0; c + 1 < first_run.size(); ++c) {
     if (first_run[c] >= first_run[c + 1] || first_run[c + 1] > runs.size()) {
       return broken(c, "run offsets do not increase");
@@ -43,8 +72,9 @@ Result<ColumnView> ColumnView::from_runs(int rows,
     int start = 0;
     for (std::size_t i = first_run[c]; i < first_run[c + 1]; ++i) {
       if (runs[i].end_row <= start) return broken(c, "empty run");
-      if (i > first_run[c] && runs[i].label == runs[i - 1].label) {
-        return broken(c, "neighbouring runs of one class");
+      if (i > first_run[c] && runs[i].label == runs[i - 1].label &&
+          (planes.empty() || planes[i] == planes[i - 1])) {
+        return broken(c, "neighbouring runs of one surface");
       }
       start = runs[i].end_row;
     }
@@ -54,6 +84,7 @@ Result<ColumnView> ColumnView::from_runs(int rows,
   view.rows_ = rows;
   view.first_run_ = std::move(first_run);
   view.runs_ = std::move(runs);
+  view.planes_ = std::move(planes);
   return view;
 }
 
@@ -68,6 +99,29 @@ LabelImage ColumnView::to_labels(int heading) const {
     }
   }
   return labels;
+}
+
+RangeImage ColumnView::to_ranges(const PanoramaCamera& camera, int heading) const {
+  SEMVIEW_CHECK(has_ranges() && camera.columns == columns() && camera.rows == rows_);
+  SEMVIEW_CHECK(heading == 0 || columns() % PoseGrid::kHeadings == 0);
+  std::vector<double> cosine(static_cast<std::size_t>(rows_));
+  std::vector<double> sine(cosine.size());
+  for (int r = 0; r < rows_; ++r) {
+    cosine[static_cast<std::size_t>(r)] = std::cos(camera.elevation_rad(r));
+    sine[static_cast<std::size_t>(r)] = std::sin(camera.elevation_rad(r));
+  }
+  RangeImage ranges(rows_, columns());
+  for (int c = 0; c < columns(); ++c) {
+    const int source = heading == 0 ? c : PoseGrid::source_column(c, heading, columns());
+    std::size_t row = 0;
+    const auto index = static_cast<std::size_t>(source);
+    for (std::size_t i = first_run_[index]; i < first_run_[index + 1]; ++i) {
+      for (; row < runs_[i].end_row; ++row) {
+        ranges.at(static_cast<int>(row), c) = range_m(planes_[i], cosine[row], sine[row]);
+      }
+    }
+  }
+  return ranges;
 }
 
 }  // namespace semview

@@ -11,6 +11,7 @@ namespace semview {
 struct ViewProfile {
   PanoramaCamera camera = {};
   double eye_height_m = 1.2;  ///< above the map's ground
+  bool ranges = false;        ///< views carry a plane a run: see `RunPlane`
 
   bool operator==(const ViewProfile&) const = default;
 };
