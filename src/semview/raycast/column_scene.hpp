@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// An extruded plan made ready for walks along its pixels.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "semview/geometry/image.hpp"
+#include "semview/map/column_map.hpp"
+
+namespace semview::raycast {
+
+/// The stretch of a ray over pixels of one profile, in parameters of the ray.
+struct Stretch {
+  double begin = 0.0;
+  double end = 0.0;
+  std::uint8_t profile = 0;
+};
+
+/// Which profiles a horizontal ray passes, and where. Immutable.
+class ColumnScene {
+ public:
+  explicit ColumnScene(map::ColumnMap plan);
+
+  const map::ColumnMap& plan() const { return plan_; }
+
+  /// The stretches from `from` (frame `map`) along `direction`, which need not be a unit vector:
+  /// parameter 1 is where it ends. Neighbouring stretches differ in profile, none is empty; the
+  /// first begins at 0 and the last ends at infinity. What is past the image has profile 0.
+  ///
+  /// An eye nearer than 0.1 mm to a pixel's edge stands on the side that the ray looks to.
+  /// @cost O(pixels passed / width of the empty space around them).
+  void walk(const Eigen::Vector2d& from,
+            const Eigen::Vector2d& direction,
+            std::vector<Stretch>& stretches) const;
+
+ private:
+  map::ColumnMap plan_;
+  /// Of every pixel: all pixels nearer than this many rows and columns have its profile.
+  Image<std::uint16_t> reach_;
+};
+
+}  // namespace semview::raycast
