@@ -11,20 +11,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Tangents of elevation between which something is seen, and how its distance follows from them.
-struct Band {
-  double low;
-  double high;
-  ClassId label;
-};
-
 /// The rows of one column of pixels, filled from near to far.
 class PixelColumn {
  public:
-  PixelColumn(const std::vector<double>& tangents) : tangents_(tangents), labels_(tangents.size()) {}
+  explicit PixelColumn(const std::vector<double>& tangents) : tangents_(tangents) {}
 
   void clear() {
-    std::fill(labels_.begin(), labels_.end(), kNoHit);
     gaps_.assign(1, {0, static_cast<int>(tangents_.size())});
   }
   bool full() const { return gaps_.empty(); }
@@ -57,15 +49,12 @@ class PixelColumn {
     gaps_.swap(next_);
   }
 
-  std::vector<ClassId>& labels() { return labels_; }
-
  private:
   struct Gap {
     int begin;
     int end;
   };
   const std::vector<double>& tangents_;
-  std::vector<ClassId> labels_;
   std::vector<Gap> gaps_;
   std::vector<Gap> next_;
 };
@@ -129,15 +118,14 @@ void render(const ColumnScene& scene,
   const PanoramaCamera& camera = request.camera;
   const Eigen::Vector2d eye(request.map_from_robot.x_m, request.map_from_robot.y_m);
   PixelColumn pixels(tangents);
-  std::vector<Stretch> stretches;
   for (int c = 0; c < camera.columns; ++c) {
     const double azimuth = request.map_from_robot.yaw_rad + camera.azimuth_rad(c);
     const Eigen::Vector3d ahead =
         request.affine.apply({std::cos(azimuth), std::sin(azimuth), 0.0});
-    scene.walk(eye, ahead.head<2>(), stretches);
+    ColumnWalk walk(scene, eye, ahead.head<2>());
     pixels.clear();
     begin(c);
-    for (const Stretch& stretch : stretches) {
+    for (Stretch stretch; !pixels.full() && walk.next(stretch);) {
       paint_stretch(scene.plan(),
                     stretch,
                     request.eye_z_m,
@@ -146,7 +134,6 @@ void render(const ColumnScene& scene,
                         fill(c, first, last, label, distance);
                       });
                     });
-      if (pixels.full()) break;
     }
     end(c);
   }
@@ -161,7 +148,45 @@ std::vector<double> tangents_of(const PanoramaCamera& camera) {
 }  // namespace
 
 ColumnView render_column_view(const ColumnScene& scene, const PanoramaRequest& request) {
-  return ColumnView::from_labels(render_panorama(scene, request).labels);
+  const int rows = request.camera.rows;
+  struct Piece {
+    int begin;
+    int end;
+    ClassId label;
+  };
+  std::vector<Piece> pieces;
+  std::vector<Run> runs;
+  std::vector<std::uint32_t> first_run{0};
+  runs.reserve(static_cast<std::size_t>(request.camera.columns) * 4);
+  first_run.reserve(static_cast<std::size_t>(request.camera.columns) + 1);
+  render(
+      scene,
+      request,
+      tangents_of(request.camera),
+      [&](int) { pieces.clear(); },
+      [&](int, int first, int last, ClassId label, auto&&) {
+        pieces.push_back({first, last, label});
+      },
+      [&](int) {
+        std::ranges::sort(pieces, {}, &Piece::begin);
+        const std::size_t start = runs.size();
+        const auto add = [&](int end, ClassId label) {
+          if (runs.size() > start && runs.back().label == label) {
+            runs.back().end_row = static_cast<std::uint16_t>(end);
+          } else {
+            runs.push_back({static_cast<std::uint16_t>(end), label});
+          }
+        };
+        int row = 0;
+        for (const Piece& piece : pieces) {
+          if (piece.begin > row) add(piece.begin, kNoHit);
+          add(piece.end, piece.label);
+          row = piece.end;
+        }
+        if (row < rows) add(rows, kNoHit);
+        first_run.push_back(static_cast<std::uint32_t>(runs.size()));
+      });
+  return *ColumnView::from_runs(rows, std::move(first_run), std::move(runs));
 }
 
 Panorama render_panorama(const ColumnScene& scene, const PanoramaRequest& request) {

@@ -39,104 +39,115 @@ Image<std::uint16_t> reach_of(const Image<std::uint8_t>& profiles) {
   return reach;
 }
 
-/// One axis of a walk, in pixels.
-struct Axis {
-  double start;
-  double slope;
-  int pixels;
-
-  /// The pixel under the start of the ray.
-  int first(double contact_px) const {
-    const double nearest = std::round(start);
-    if (std::abs(start - nearest) < contact_px) {
-      return static_cast<int>(nearest) - (slope < 0.0 ? 1 : 0);
-    }
-    return static_cast<int>(std::floor(start));
-  }
-  /// The parameter at which the ray leaves the pixels that are nearer than `reach` to `pixel`.
-  double leave(int pixel, int reach) const {
-    if (slope == 0.0) return kInfinity;
-    const int edge = slope > 0.0 ? pixel + reach : pixel - reach + 1;
-    return std::max(0.0, (edge - start) / slope);
-  }
-  /// Parameters between which the ray is over the image.
-  std::pair<double, double> over_image() const {
-    if (slope == 0.0) {
-      return start >= 0.0 && start < pixels ? std::pair{0.0, kInfinity}
-                                            : std::pair{kInfinity, kInfinity};
-    }
-    const double a = -start / slope;
-    const double b = (pixels - start) / slope;
-    return {std::min(a, b), std::max(a, b)};
-  }
-  /// The pixel at a parameter, among those nearer than `reach` to `pixel`.
-  int at(double parameter, int pixel, int reach) const {
-    return std::clamp(static_cast<int>(std::floor(start + parameter * slope)),
-                      pixel - reach + 1,
-                      pixel + reach - 1);
-  }
-};
-
 }  // namespace
 
 ColumnScene::ColumnScene(map::ColumnMap plan)
     : plan_(std::move(plan)), reach_(reach_of(plan_.profile_of_pixel)) {}
 
-void ColumnScene::walk(const Eigen::Vector2d& from,
-                       const Eigen::Vector2d& direction,
-                       std::vector<Stretch>& stretches) const {
-  const double pixels_a_metre = 1.0 / plan_.resolution_m;
-  const Eigen::Vector2d start = plan_.plan_from_map(from.x(), from.y()) * pixels_a_metre;
-  const double c = std::cos(plan_.origin.yaw_rad) * pixels_a_metre;
-  const double s = std::sin(plan_.origin.yaw_rad) * pixels_a_metre;
-  const Axis u{start.x(), c * direction.x() + s * direction.y(), plan_.columns()};
-  const Axis v{start.y(), c * direction.y() - s * direction.x(), plan_.rows()};
+ColumnWalk::Axis ColumnWalk::Axis::make(double start,
+                                        double slope,
+                                        int pixels,
+                                        double contact_px) {
+  Axis axis{start, slope, 1.0 / slope, pixels, static_cast<int>(std::floor(start))};
+  const double edge = std::round(start);
+  if (std::abs(start - edge) < contact_px) axis.pixel = static_cast<int>(edge) - (slope < 0.0);
+  return axis;
+}
+
+/// The parameter at which the ray leaves the pixels that are nearer than `reach`.
+double ColumnWalk::Axis::leave(int reach) const {
+  if (slope == 0.0) return kInfinity;
+  const int edge = slope > 0.0 ? pixel + reach : pixel - reach + 1;
+  return (edge - start) * inverse;
+}
+
+/// To where the ray is at a parameter, among the pixels nearer than `reach`.
+void ColumnWalk::Axis::move_to(double parameter, int reach) {
+  if (reach == 1) return;
+  const int there = static_cast<int>(std::floor(start + parameter * slope));
+  pixel = std::clamp(there, pixel - reach + 1, pixel + reach - 1);
+}
+
+/// Parameters between which the ray is over the image.
+std::pair<double, double> ColumnWalk::Axis::over_image() const {
+  if (slope == 0.0) return {start >= 0.0 && start < pixels ? 0.0 : kInfinity, kInfinity};
+  const double a = -start * inverse;
+  const double b = (pixels - start) * inverse;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+void ColumnWalk::Axis::enter(double parameter) {
+  pixel = std::clamp(static_cast<int>(std::floor(start + parameter * slope)), 0, pixels - 1);
+}
+
+ColumnWalk::ColumnWalk(const ColumnScene& scene,
+                       const Eigen::Vector2d& from,
+                       const Eigen::Vector2d& direction)
+    : scene_(scene) {
+  const map::ColumnMap& plan = scene.plan();
+  const double pixels_a_metre = 1.0 / plan.resolution_m;
+  const Eigen::Vector2d start = plan.plan_from_map(from.x(), from.y()) * pixels_a_metre;
+  const double c = std::cos(plan.origin.yaw_rad) * pixels_a_metre;
+  const double s = std::sin(plan.origin.yaw_rad) * pixels_a_metre;
   const double contact_px = kContact_m * pixels_a_metre;
+  u_ = Axis::make(start.x(), c * direction.x() + s * direction.y(), plan.columns(), contact_px);
+  v_ = Axis::make(start.y(), c * direction.y() - s * direction.x(), plan.rows(), contact_px);
+}
 
-  stretches.clear();
-  const auto add = [&stretches](double begin, double end, std::uint8_t profile) {
-    if (!(end > begin)) return;
-    if (!stretches.empty() && stretches.back().profile == profile) {
-      stretches.back().end = end;
+bool ColumnWalk::next(Stretch& stretch) {
+  if (ended_) return false;
+  stretch = {parameter_, kInfinity, 0};
+  if (!(u_.inside() && v_.inside())) {
+    const auto [u_in, u_out] = u_.over_image();
+    const auto [v_in, v_out] = v_.over_image();
+    const double in = std::max({parameter_, u_in, v_in});
+    if (parameter_ == 0.0 && in < std::min(u_out, v_out)) {
+      u_.enter(in);
+      v_.enter(in);
+      stretch.end = parameter_ = in;
+      if (in > 0.0) return true;
     } else {
-      stretches.push_back({begin, end, profile});
+      ended_ = true;
+      return true;
     }
-  };
-
-  int column = u.first(contact_px);
-  int up = v.first(contact_px);
-  double parameter = 0.0;
-  const auto inside = [&] {
-    return column >= 0 && column < u.pixels && up >= 0 && up < v.pixels;
-  };
-  if (!inside()) {
-    parameter = std::max({0.0, u.over_image().first, v.over_image().first});
-    if (!(parameter < std::min(u.over_image().second, v.over_image().second))) {
-      add(0.0, kInfinity, 0);
-      return;
-    }
-    add(0.0, parameter, 0);
-    column = std::clamp(static_cast<int>(std::floor(u.start + parameter * u.slope)), 0, u.pixels - 1);
-    up = std::clamp(static_cast<int>(std::floor(v.start + parameter * v.slope)), 0, v.pixels - 1);
   }
-  while (inside()) {
-    const int row = v.pixels - 1 - up;
-    const int reach = reach_.at(row, column);
-    const double leave_u = u.leave(column, reach);
-    const double leave_v = v.leave(up, reach);
-    const double leave = std::max(parameter, std::min(leave_u, leave_v));
-    add(parameter, leave, plan_.profile_of_pixel.at(row, column));
-    if (leave == kInfinity) return;
+  const auto& profiles = scene_.plan_.profile_of_pixel;
+  bool started = false;
+  while (u_.inside() && v_.inside()) {
+    const int row = v_.pixels - 1 - v_.pixel;
+    const std::uint8_t profile = profiles.at(row, u_.pixel);
+    if (started && profile != stretch.profile) {
+      stretch.end = parameter_;
+      return true;
+    }
+    const int reach = scene_.reach_.at(row, u_.pixel);
+    const double leave_u = u_.leave(reach);
+    const double leave_v = v_.leave(reach);
+    const double leave = std::min(leave_u, leave_v);
+    if (leave > parameter_) {
+      // Only here: pixels that the ray merely touches do not count.
+      if (!started) stretch = {parameter_, kInfinity, profile};
+      started = true;
+      parameter_ = leave;
+      if (leave == kInfinity) {
+        ended_ = true;
+        return true;
+      }
+    }
     if (leave_u <= leave_v) {
-      up = v.at(leave, up, reach);
-      column += u.slope > 0.0 ? reach : -reach;
+      v_.move_to(leave, reach);
+      u_.cross(reach);
     } else {
-      column = u.at(leave, column, reach);
-      up += v.slope > 0.0 ? reach : -reach;
+      u_.move_to(leave, reach);
+      v_.cross(reach);
     }
-    parameter = leave;
   }
-  add(parameter, kInfinity, 0);
+  if (started && stretch.profile != 0) {
+    stretch.end = parameter_;
+    return true;
+  }
+  ended_ = true;
+  return true;
 }
 
 }  // namespace semview::raycast

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -26,20 +26,51 @@ class ColumnScene {
 
   const map::ColumnMap& plan() const { return plan_; }
 
-  /// The stretches from `from` (frame `map`) along `direction`, which need not be a unit vector:
-  /// parameter 1 is where it ends. Neighbouring stretches differ in profile, none is empty; the
-  /// first begins at 0 and the last ends at infinity. What is past the image has profile 0.
-  ///
-  /// An eye nearer than 0.1 mm to a pixel's edge stands on the side that the ray looks to.
-  /// @cost O(pixels passed / width of the empty space around them).
-  void walk(const Eigen::Vector2d& from,
-            const Eigen::Vector2d& direction,
-            std::vector<Stretch>& stretches) const;
-
  private:
+  friend class ColumnWalk;
   map::ColumnMap plan_;
   /// Of every pixel: all pixels nearer than this many rows and columns have its profile.
   Image<std::uint16_t> reach_;
+};
+
+/// The stretches from `from` (frame `map`) along `direction`, which need not be a unit vector:
+/// parameter 1 is where it ends. Neighbouring stretches differ in profile, none is empty; the
+/// first begins at 0 and the last ends at infinity. What is past the image has profile 0.
+///
+/// An eye nearer than 0.1 mm to a pixel's edge stands on the side that the ray looks to.
+/// @cost of a stretch: O(its pixels / width of the empty space around them).
+class ColumnWalk {
+ public:
+  ColumnWalk(const ColumnScene& scene,
+             const Eigen::Vector2d& from,
+             const Eigen::Vector2d& direction);
+
+  /// False behind the last one.
+  bool next(Stretch& stretch);
+
+ private:
+  /// One axis of the plan, in pixels.
+  struct Axis {
+    double start;
+    double slope;
+    double inverse;  // of the slope
+    int pixels;
+    int pixel;  // where the walk is
+
+    static Axis make(double start, double slope, int pixels, double contact_px);
+    bool inside() const { return pixel >= 0 && pixel < pixels; }
+    double leave(int reach) const;
+    void move_to(double parameter, int reach);
+    void cross(int reach) { pixel += slope > 0.0 ? reach : -reach; }
+    std::pair<double, double> over_image() const;
+    void enter(double parameter);
+  };
+
+  const ColumnScene& scene_;
+  Axis u_;
+  Axis v_;
+  double parameter_ = 0.0;
+  bool ended_ = false;
 };
 
 }  // namespace semview::raycast
