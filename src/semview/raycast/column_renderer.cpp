@@ -3,22 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace semview::raycast {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The rows of one column of pixels, filled from near to far.
 class PixelColumn {
  public:
   explicit PixelColumn(const std::vector<double>& tangents) : tangents_(tangents) {}
 
-  void clear() {
-    gaps_.assign(1, {0, static_cast<int>(tangents_.size())});
-  }
+  void clear() { gaps_.assign(1, {0, static_cast<int>(tangents_.size())}); }
   bool full() const { return gaps_.empty(); }
 
   /// Calls `fill(first_row, end_row)` for the rows between two tangents that are still free, and
@@ -66,8 +61,19 @@ double tangent_to(double rise_m, double distance_m) {
   return rise_m / distance_m;
 }
 
-/// Paints what stands over one stretch, from its slabs outwards. `paint(low, high, label, distance)`
-/// gets `distance(tangent)`, the horizontal distance at which a ray hits.
+RunPlane upright(double distance_m) {
+  const double nearest_m = kMinPlaneDistance_m;
+  return {static_cast<float>(1.0 / std::max(distance_m, nearest_m)), 0.0F};
+}
+
+RunPlane level(double rise_m) {
+  const double nearest_m = kMinPlaneDistance_m;
+  const double distance_m = std::copysign(std::max(std::abs(rise_m), nearest_m), rise_m);
+  return {0.0F, static_cast<float>(1.0 / distance_m)};
+}
+
+/// Paints what stands over one stretch, from its slabs outwards, by `paint(low, high, label,
+/// plane)` with tangents of elevation.
 template <typename Paint>
 void paint_stretch(const map::ColumnMap& plan,
                    const Stretch& stretch,
@@ -77,66 +83,32 @@ void paint_stretch(const map::ColumnMap& plan,
   if (profile.outside) return;
   const double near = stretch.begin;
   const double far = stretch.end;
+  const auto sheet = [&](double height_m, ClassId label) {
+    const double rise = height_m - eye_z_m;
+    const double a = tangent_to(rise, near);
+    const double b = tangent_to(rise, far);
+    paint(std::min(a, b), std::max(a, b), label, level(rise));
+  };
+  const bool eye_below_ground = eye_z_m < plan.ground_height_m;
+  const bool eye_above_ceiling = plan.ceiling && eye_z_m > plan.ceiling->height_m;
+  if (eye_below_ground) sheet(plan.ground_height_m, profile.ground);
+  if (eye_above_ceiling) sheet(plan.ceiling->height_m, plan.ceiling->label);
   const auto body = [&](const Slab& slab) {
     const double bottom = slab.z_min_m - eye_z_m;
     const double top = slab.z_max_m - eye_z_m;
-    // Below the eye a body is seen up to the far edge of its top, above it down to that of its
-    // underside.
-    const double low = tangent_to(bottom, bottom > 0.0 ? far : near);
-    const double high = tangent_to(top, top < 0.0 ? far : near);
-    paint(low, high, slab.label, [=](double tangent) {
-      const double rise = tangent * near;
-      if (rise > top) return top / tangent;
-      if (rise < bottom) return bottom / tangent;
-      return near;
-    });
+    paint(tangent_to(bottom, near), tangent_to(top, near), slab.label, upright(near));
+    if (top < 0.0) paint(tangent_to(top, near), tangent_to(top, far), slab.label, level(top));
+    if (bottom > 0.0) {
+      paint(tangent_to(bottom, far), tangent_to(bottom, near), slab.label, level(bottom));
+    }
   };
   // What is nearer to the height of the eye hides what is behind it of the same stretch.
   const auto above = std::ranges::find_if(
       profile.slabs, [eye_z_m](const Slab& slab) { return slab.z_max_m > eye_z_m; });
   for (auto slab = above; slab != profile.slabs.end(); ++slab) body(*slab);
   for (auto slab = above; slab != profile.slabs.begin();) body(*--slab);
-  const auto sheet = [&](double height_m, ClassId label) {
-    const double rise = height_m - eye_z_m;
-    const double a = tangent_to(rise, near);
-    const double b = tangent_to(rise, far);
-    paint(std::min(a, b), std::max(a, b), label, [rise](double tangent) { return rise / tangent; });
-  };
-  sheet(plan.ground_height_m, profile.ground);
-  if (plan.ceiling) sheet(plan.ceiling->height_m, plan.ceiling->label);
-}
-
-/// Renders column by column: `begin(column)`, then `fill(first_row, end_row, label, distance)` for
-/// what is seen, then `end(column)`.
-template <typename Begin, typename Fill, typename End>
-void render(const ColumnScene& scene,
-            const PanoramaRequest& request,
-            const std::vector<double>& tangents,
-            Begin&& begin,
-            Fill&& fill,
-            End&& end) {
-  const PanoramaCamera& camera = request.camera;
-  const Eigen::Vector2d eye(request.map_from_robot.x_m, request.map_from_robot.y_m);
-  PixelColumn pixels(tangents);
-  for (int c = 0; c < camera.columns; ++c) {
-    const double azimuth = request.map_from_robot.yaw_rad + camera.azimuth_rad(c);
-    const Eigen::Vector3d ahead =
-        request.affine.apply({std::cos(azimuth), std::sin(azimuth), 0.0});
-    ColumnWalk walk(scene, eye, ahead.head<2>());
-    pixels.clear();
-    begin(c);
-    for (Stretch stretch; !pixels.full() && walk.next(stretch);) {
-      paint_stretch(scene.plan(),
-                    stretch,
-                    request.eye_z_m,
-                    [&](double low, double high, ClassId label, auto&& distance) {
-                      pixels.take(low, high, [&](int first, int last) {
-                        fill(c, first, last, label, distance);
-                      });
-                    });
-    }
-    end(c);
-  }
+  if (!eye_below_ground) sheet(plan.ground_height_m, profile.ground);
+  if (plan.ceiling && !eye_above_ceiling) sheet(plan.ceiling->height_m, plan.ceiling->label);
 }
 
 std::vector<double> tangents_of(const PanoramaCamera& camera) {
@@ -145,70 +117,88 @@ std::vector<double> tangents_of(const PanoramaCamera& camera) {
   return tangents;
 }
 
+struct Piece {
+  int begin;
+  int end;
+  ClassId label;
+  RunPlane plane;
+};
+
+/// Runs from the pieces of column after column.
+class RunCollector {
+ public:
+  RunCollector(const PanoramaCamera& camera, bool ranges) : rows_(camera.rows), ranges_(ranges) {}
+
+  void add_column(std::vector<Piece>& pieces) {
+    std::ranges::sort(pieces, {}, &Piece::begin);
+    const std::size_t start = runs_.size();
+    int row = 0;
+    for (const Piece& piece : pieces) {
+      if (piece.begin > row) add(start, piece.begin, kNoHit, {});
+      add(start, piece.end, piece.label, piece.plane);
+      row = piece.end;
+    }
+    if (row < rows_) add(start, rows_, kNoHit, {});
+    first_run_.push_back(static_cast<std::uint32_t>(runs_.size()));
+  }
+
+  ColumnView view() {
+    return *ColumnView::from_runs(
+        rows_, std::move(first_run_), std::move(runs_), std::move(planes_));
+  }
+
+ private:
+  void add(std::size_t start, int end, ClassId label, const RunPlane& plane) {
+    const bool same = runs_.size() > start && runs_.back().label == label &&
+                      (!ranges_ || planes_.back() == plane);
+    if (same) {
+      runs_.back().end_row = static_cast<std::uint16_t>(end);
+      return;
+    }
+    runs_.push_back({static_cast<std::uint16_t>(end), label});
+    if (ranges_) planes_.push_back(plane);
+  }
+
+  int rows_;
+  bool ranges_;
+  std::vector<std::uint32_t> first_run_{0};
+  std::vector<Run> runs_;
+  std::vector<RunPlane> planes_;
+};
+
 }  // namespace
 
-ColumnView render_column_view(const ColumnScene& scene, const PanoramaRequest& request) {
-  const int rows = request.camera.rows;
-  struct Piece {
-    int begin;
-    int end;
-    ClassId label;
-  };
+ColumnView render_column_view(const ColumnScene& scene,
+                              const PanoramaRequest& request,
+                              bool ranges) {
+  const PanoramaCamera& camera = request.camera;
+  const Eigen::Vector2d eye(request.map_from_robot.x_m, request.map_from_robot.y_m);
+  const std::vector<double> tangents = tangents_of(camera);
+  PixelColumn pixels(tangents);
+  RunCollector collector(camera, ranges);
   std::vector<Piece> pieces;
-  std::vector<Run> runs;
-  std::vector<std::uint32_t> first_run{0};
-  runs.reserve(static_cast<std::size_t>(request.camera.columns) * 4);
-  first_run.reserve(static_cast<std::size_t>(request.camera.columns) + 1);
-  render(
-      scene,
-      request,
-      tangents_of(request.camera),
-      [&](int) { pieces.clear(); },
-      [&](int, int first, int last, ClassId label, auto&&) {
-        pieces.push_back({first, last, label});
-      },
-      [&](int) {
-        std::ranges::sort(pieces, {}, &Piece::begin);
-        const std::size_t start = runs.size();
-        const auto add = [&](int end, ClassId label) {
-          if (runs.size() > start && runs.back().label == label) {
-            runs.back().end_row = static_cast<std::uint16_t>(end);
-          } else {
-            runs.push_back({static_cast<std::uint16_t>(end), label});
-          }
-        };
-        int row = 0;
-        for (const Piece& piece : pieces) {
-          if (piece.begin > row) add(piece.begin, kNoHit);
-          add(piece.end, piece.label);
-          row = piece.end;
-        }
-        if (row < rows) add(rows, kNoHit);
-        first_run.push_back(static_cast<std::uint32_t>(runs.size()));
+  for (int c = 0; c < camera.columns; ++c) {
+    const double azimuth = request.map_from_robot.yaw_rad + camera.azimuth_rad(c);
+    const Eigen::Vector3d ahead = request.affine.apply({std::cos(azimuth), std::sin(azimuth), 0.0});
+    ColumnWalk walk(scene, eye, ahead.head<2>());
+    pixels.clear();
+    pieces.clear();
+    const auto paint = [&](double low, double high, ClassId label, const RunPlane& plane) {
+      pixels.take(low, high, [&](int begin, int end) {
+        pieces.push_back({begin, end, label, plane});
       });
-  return *ColumnView::from_runs(rows, std::move(first_run), std::move(runs));
+    };
+    for (Stretch stretch; !pixels.full() && walk.next(stretch);) {
+      paint_stretch(scene.plan(), stretch, request.eye_z_m, paint);
+    }
+    collector.add_column(pieces);
+  }
+  return collector.view();
 }
 
 Panorama render_panorama(const ColumnScene& scene, const PanoramaRequest& request) {
-  const PanoramaCamera& camera = request.camera;
-  const std::vector<double> tangents = tangents_of(camera);
-  Panorama panorama{LabelImage(camera.rows, camera.columns, kNoHit),
-                    RangeImage(camera.rows, camera.columns, static_cast<float>(kInfinity))};
-  render(
-      scene,
-      request,
-      tangents,
-      [](int) {},
-      [&](int c, int first, int last, ClassId label, auto&& distance) {
-        for (int r = first; r < last; ++r) {
-          const double tangent = tangents[static_cast<std::size_t>(r)];
-          panorama.labels.at(r, c) = label;
-          panorama.ranges_m.at(r, c) =
-              static_cast<float>(distance(tangent) * std::sqrt(1.0 + tangent * tangent));
-        }
-      },
-      [](int) {});
-  return panorama;
+  const ColumnView view = render_column_view(scene, request, true);
+  return {view.to_labels(), view.to_ranges(request.camera)};
 }
 
 }  // namespace semview::raycast

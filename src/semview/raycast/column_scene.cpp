@@ -28,7 +28,8 @@ Image<std::uint16_t> reach_of(const Image<std::uint8_t>& profiles) {
   };
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
-      for (const auto& [dr, dc] : {std::pair{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}}) relax(r, c, dr, dc);
+      for (const auto& [dr, dc] : {std::pair{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}})
+        relax(r, c, dr, dc);
     }
   }
   for (int r = rows - 1; r >= 0; --r) {
@@ -44,10 +45,9 @@ Image<std::uint16_t> reach_of(const Image<std::uint8_t>& profiles) {
 ColumnScene::ColumnScene(map::ColumnMap plan)
     : plan_(std::move(plan)), reach_(reach_of(plan_.profile_of_pixel)) {}
 
-ColumnWalk::Axis ColumnWalk::Axis::make(double start,
-                                        double slope,
-                                        int pixels,
-                                        double contact_px) {
+ColumnScene ColumnScene::build(const map::ColumnMap& plan) { return ColumnScene(plan); }
+
+ColumnWalk::Axis ColumnWalk::Axis::make(double start, double slope, int pixels, double contact_px) {
   Axis axis{start, slope, 1.0 / slope, pixels, static_cast<int>(std::floor(start))};
   const double edge = std::round(start);
   if (std::abs(start - edge) < contact_px) axis.pixel = static_cast<int>(edge) - (slope < 0.0);

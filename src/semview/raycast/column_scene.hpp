@@ -22,12 +22,13 @@ struct Stretch {
 /// Which profiles a horizontal ray passes, and where. Immutable.
 class ColumnScene {
  public:
-  explicit ColumnScene(map::ColumnMap plan);
+  static ColumnScene build(const map::ColumnMap& plan);
 
   const map::ColumnMap& plan() const { return plan_; }
 
  private:
   friend class ColumnWalk;
+  explicit ColumnScene(map::ColumnMap plan);
   map::ColumnMap plan_;
   /// Of every pixel: all pixels nearer than this many rows and columns have its profile.
   Image<std::uint16_t> reach_;
