@@ -13,7 +13,7 @@
 #include "semview/geometry/angle.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
-#include "semview/raycast/embree_view_source.hpp"
+#include "semview/raycast/embree_engine.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -78,7 +78,7 @@ ordered_json info_json(const map::SemanticMap& map, const map::CellGrid& grid) {
                     {"name", map.name},
                     {"fingerprint", to_hex(map.fingerprint)},
                     {"kind", map.columns() != nullptr ? "plan" : "mesh"},
-                    {"engine", raycast::kEngineName},
+                    {"engine", raycast::EmbreeEngine::kName},
                     {"ground_height_m", map.ground_height_m}};
   if (map.ceiling) info["ceiling_height_m"] = map.ceiling->height_m;
   const Box box = box_of(map);
@@ -122,7 +122,7 @@ void print_text(const map::SemanticMap& map, const map::CellGrid& grid) {
   line("id", map.id);
   line("name", map.name);
   line("fingerprint", to_hex(map.fingerprint));
-  line("engine", fmt::format("{} (it serves every map)", raycast::kEngineName));
+  line("engine", fmt::format("{} (it serves every map)", raycast::EmbreeEngine::kName));
   if (const map::ColumnMap* columns = map.columns()) {
     line("plan",
          fmt::format("{} x {} pixels of {:g} m",

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "semview/geometry/pose_grid.hpp"
+#include "semview/raycast/plane_runs.hpp"
 #include "semview/raycast/ray_caster.hpp"
 #include "semview/view/view_profile.hpp"
 
@@ -121,7 +122,18 @@ Panorama render_panorama(const Scene& scene, const PanoramaRequest& request) {
   return panorama;
 }
 
-ColumnView render_column_view(const Scene& scene, const PanoramaRequest& request) {
+ColumnView render_column_view(const Scene& scene, const PanoramaRequest& request, bool ranges) {
+  if (ranges) {
+    TriangleImage triangles(request.camera.rows, request.camera.columns, kNoTriangle);
+    cast_tiles(caster_at(scene, request),
+               request.camera.rows,
+               request.camera.columns,
+               PanoramaRays(request),
+               [&](int row, int column, const RayHit& hit) {
+                 if (hit.label != kNoHit) triangles.at(row, column) = hit.triangle;
+               });
+    return runs_with_planes(scene, request, triangles);
+  }
   LabelImage labels(request.camera.rows, request.camera.columns);
   cast_tiles(caster_at(scene, request),
              request.camera.rows,

@@ -43,8 +43,10 @@ Status validate(const MapAffine& affine);
 /// @source Neubert et al. 2017, section III-A (there: the nearest point of a point cloud).
 Panorama render_panorama(const Scene& scene, const PanoramaRequest& request);
 
-/// The labels of `render_panorama` as runs; cheaper, since no range is kept.
-ColumnView render_column_view(const Scene& scene, const PanoramaRequest& request);
+/// The labels of `render_panorama` as runs; with `ranges` each run carries its plane.
+ColumnView render_column_view(const Scene& scene,
+                              const PanoramaRequest& request,
+                              bool ranges = false);
 
 /// `render_panorama` ray by ray: the twin that tests and the benchmark compare packets with.
 Panorama render_panorama_single_rays(const Scene& scene, const PanoramaRequest& request);

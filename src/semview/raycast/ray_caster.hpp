@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "semview/raycast/scene_impl.hpp"
@@ -23,7 +24,8 @@ struct RayDirection {
 struct RayHit {
   ClassId label = kNoHit;
   float parameter = std::numeric_limits<float>::infinity();
-  bool back_face = false;  ///< met from the side that is not free space
+  bool back_face = false;      ///< met from the side that is not free space
+  std::uint32_t triangle = 0;  ///< where something was hit
 };
 
 /// Sets flush-to-zero and denormals-are-zero, as Embree asks, for the life of this object.
@@ -142,7 +144,7 @@ class RayCaster {
       start_to_hit = again.ray.tfar;
       back_face = facing_away(direction, again.hit.Ng_x, again.hit.Ng_y, again.hit.Ng_z);
     }
-    return {impl_.labels[triangle], std::max(0.0F, start_to_hit - kTouch), back_face};
+    return {impl_.labels[triangle], std::max(0.0F, start_to_hit - kTouch), back_face, triangle};
   }
 
   const Scene::Impl& impl_;

@@ -62,8 +62,8 @@ Status embree_error(RTCDevice device, const char* step) {
               fmt::format("embree: {} failed with error {}", step, static_cast<int>(error)));
 }
 
-/// Copies the mesh into buffers that Embree owns.
-Status fill_geometry(RTCDevice device, RTCGeometry geometry, const map::TriangleMesh& mesh) {
+/// Copies the mesh into buffers that Embree owns as long as the scene lives.
+Status fill_geometry(Scene::Impl& impl, RTCGeometry geometry, const map::TriangleMesh& mesh) {
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry,
                                                                RTC_BUFFER_TYPE_VERTEX,
                                                                0,
@@ -77,9 +77,11 @@ Status fill_geometry(RTCDevice device, RTCGeometry geometry, const map::Triangle
                                                                       3 * sizeof(std::uint32_t),
                                                                       mesh.triangles.size()));
   if (vertices == nullptr || indices == nullptr) {
-    SEMVIEW_TRY_STATUS(embree_error(device, "allocating the mesh"));
+    SEMVIEW_TRY_STATUS(embree_error(impl.device, "allocating the mesh"));
     return fail(ErrorCode::kInternal, "embree: allocating the mesh failed");
   }
+  impl.vertices = vertices;
+  impl.triangles = indices;
   for (const Eigen::Vector3f& vertex : mesh.vertices) {
     *vertices++ = vertex.x();
     *vertices++ = vertex.y();
@@ -119,7 +121,7 @@ Result<Scene> Scene::build(const map::TriangleMesh& mesh, const SceneConfig& con
   RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Debian builds Embree with ray masks: a geometry or ray that leaves its mask unset is never hit.
   rtcSetGeometryMask(geometry, ~0U);
-  const Status filled = fill_geometry(impl->device, geometry, mesh);
+  const Status filled = fill_geometry(*impl, geometry, mesh);
   if (filled) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(impl->scene, geometry);

@@ -13,7 +13,8 @@
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/extrusion.hpp"
 #include "semview/map/semantic_map.hpp"
-#include "semview/raycast/embree_view_source.hpp"
+#include "semview/raycast/embree_engine.hpp"
+#include "semview/raycast/engine_view_source.hpp"
 #include "semview/raycast/mesh_cell_grid.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
@@ -68,7 +69,7 @@ Status validate(const SiteConfig& config) {
     error.field = option_of(error.field);
     return fail(std::move(error));
   }
-  if (config.engine != "auto" && config.engine != raycast::kEngineName) {
+  if (config.engine != "auto" && config.engine != raycast::EmbreeEngine::kName) {
     return fail(Error{ErrorCode::kInvalidArgument,
                       fmt::format("engine {} is not known: auto or embree", config.engine),
                       "--engine"});
@@ -101,7 +102,7 @@ struct Site::Parts {
   EngineChoice engine;
   cache::Keyspace keyspace;
   SharedTiers tiers;
-  std::unique_ptr<raycast::EmbreeViewSource> engine_views;
+  std::unique_ptr<raycast::EngineViewSource> engine_views;
   std::unique_ptr<CachedViewSource> cached_views;
   std::unique_ptr<NearestEyeViewSource> views;
 };
@@ -129,15 +130,16 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
                                   config.profile.eye_height_m,
                                   path.string())});
   }
-  parts->engine = {std::string(raycast::kEngineName),
-                   raycast::kEngineVersion,
+  const auto engine = std::make_shared<const raycast::EmbreeEngine>(parts->scene);
+  parts->engine = {std::string(engine->name()),
+                   engine->version(),
                    config.engine == "auto" ? "it serves every map" : "it was asked for"};
   parts->keyspace = {
       parts->map.fingerprint, parts->engine.name, parts->engine.version, config.profile};
   parts->tiers = std::move(tiers);
   SEMVIEW_TRY(parts->engine_views,
-              raycast::EmbreeViewSource::create(
-                  parts->scene, config.profile, parts->map.ground_height_m, *parts->tiers.pool));
+              raycast::EngineViewSource::create(
+                  engine, config.profile, parts->map.ground_height_m, *parts->tiers.pool));
   parts->cached_views =
       std::make_unique<CachedViewSource>(*parts->engine_views, parts->keyspace, parts->tiers.cache);
   parts->views = std::make_unique<NearestEyeViewSource>(*parts->cached_views, parts->cells);
