@@ -2,7 +2,8 @@
 // What the network costs: views and scores over TCP beside the same calls in-process. Server and
 // client run in this process, on a real map.
 //
-//   bench_served [MAP_FOLDER]      default: maps/duplex_level1 of the source tree
+//   bench_served [views|scores] [MAP_FOLDER]      default: both, maps/duplex_level1 of the source
+//   tree
 //
 // Both sides take turns and have caches of their own; cold views are cast, warm ones lie in memory.
 // Of each side the best round counts: on a busy machine only the ratio is worth reading.
@@ -23,6 +24,8 @@
 #include "semview/core/random.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/protocol/envelope.hpp"
+#include "semview/protocol/view_wire.hpp"
 #include "semview/service/site.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "server.hpp"
@@ -44,6 +47,9 @@ void must(const Status& status) {
   fmt::print(stderr, "bench_served: {}\n", status.error().message);
   std::exit(1);
 }
+
+/// Cells of a large GetViews.
+constexpr std::size_t kMany = 1000;
 
 /// Seconds of the best round.
 struct Times {
@@ -78,6 +84,35 @@ void print_rates(const std::string& what, std::size_t count, const Times& times)
              times.in_process / times.served);
 }
 
+/// GetViews as lists and packed: what one reply takes.
+void compare_encodings(client::Connection& connection,
+                       const std::string& map_id,
+                       std::span<const CellIndex> cells) {
+  constexpr int kRounds = 100;
+  v1::GetViewsRequest request;
+  request.set_map_id(map_id);
+  protocol::to_wire(cells, request.mutable_cells());
+  const auto call = [&](bool packed) {
+    request.set_packed_runs(packed);
+    const std::string body =
+        must(connection.call("GetViews", request.SerializeAsString(), client::Repeat::kSafe));
+    must(
+        protocol::from_wire(must(protocol::parse<v1::GetViewsReply>(body, "reply")), cells.size()));
+    return body.size();
+  };
+  std::size_t packed_bytes = 0;
+  std::size_t list_bytes = 0;
+  const Times times = compare(
+      kRounds, [&](int) { packed_bytes = call(true); }, [&](int) { list_bytes = call(false); });
+  const auto count = static_cast<double>(cells.size());
+  fmt::print("warm views, {} a request: packed {:.0f}/s, {} B each; as lists {:.0f}/s, {} B each\n",
+             cells.size(),
+             count / times.served,
+             packed_bytes / cells.size(),
+             count / times.in_process,
+             list_bytes / cells.size());
+}
+
 void compare_views(ViewSource& served, ViewSource& in_process, std::span<const CellIndex> cells) {
   constexpr int kColdRounds = 20;
   constexpr int kWarmRounds = 200;
@@ -99,6 +134,13 @@ void compare_views(ViewSource& served, ViewSource& in_process, std::span<const C
                     [&](int) { must(in_process.views(part(0))); }));
     cells = cells.subspan(kColdRounds * count);
   }
+  const auto thousand = cells.first(kMany);
+  print_rates(fmt::format("warm views, {} a request", kMany),
+              kMany,
+              compare(
+                  kWarmRounds,
+                  [&](int) { must(served.views(thousand)); },
+                  [&](int) { must(in_process.views(thousand)); }));
 }
 
 ScoreRequest compass_poses(std::span<const CellIndex> cells, std::size_t count) {
@@ -116,8 +158,8 @@ ScoreRequest compass_poses(std::span<const CellIndex> cells, std::size_t count) 
 void compare_scores(ScoreSource& served,
                     ScoreSource& in_process,
                     std::span<const CellIndex> cells) {
-  constexpr int kRounds = 30;
-  for (const std::size_t count : {1, 100, 500, 2000, 20'000}) {
+  constexpr int kRounds = 60;
+  for (const std::size_t count : {1, 100, 500, 2000}) {
     const ScoreRequest request = compass_poses(cells, count);
     ScoreBatch remote;
     ScoreBatch local;
@@ -134,7 +176,7 @@ void compare_scores(ScoreSource& served,
   }
 }
 
-void run(const std::string& folder) {
+void run(const std::string& part, const std::string& folder) {
   const std::shared_ptr<service::Site> in_process = must(service::Site::open(folder, {}));
   service::MapRegistry maps;
   must(maps.add(must(service::Site::open(folder, {}))));
@@ -152,9 +194,13 @@ void run(const std::string& folder) {
              1e3 * compare(2000, list_maps, [](int) {}).served);
   fmt::print("{:<36} {:>12} {:>12} {:>9}\n", "", "served", "in-process", "ratio");
 
-  const auto served_views = must(client::RemoteViewSource::open(to_server, map_id));
   std::vector<CellIndex> cells = in_process->cells().free_cells();
-  compare_views(*served_views, in_process->views(), cells);
+  if (part != "scores") {
+    const auto served_views = must(client::RemoteViewSource::open(to_server, map_id));
+    compare_views(*served_views, in_process->views(), cells);
+    compare_encodings(connection, map_id, std::span(cells).first(kMany));
+  }
+  if (part == "views") return;
 
   const ClassTable& classes = in_process->map().classes;
   const auto weights = similarity::WeightMatrix::identity(classes);
@@ -176,6 +222,11 @@ void run(const std::string& folder) {
 }  // namespace semview
 
 int main(int argc, char** argv) {
-  semview::run(argc > 1 ? argv[1] : std::string(SEMVIEW_SOURCE_DIR) + "/maps/duplex_level1");
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool part = first == "views" || first == "scores";
+  const int folder = part ? 2 : 1;
+  semview::run(
+      part ? first : "",
+      argc > folder ? argv[folder] : std::string(SEMVIEW_SOURCE_DIR) + "/maps/duplex_level1");
   return 0;
 }

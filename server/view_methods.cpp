@@ -6,6 +6,7 @@
 
 #include "methods.hpp"
 #include "semview/protocol/envelope.hpp"
+#include "semview/protocol/packed_runs.hpp"
 #include "semview/protocol/view_wire.hpp"
 #include "view_request.hpp"
 
@@ -37,11 +38,13 @@ ColumnView turned(const ColumnView& view, int heading) {
   return *ColumnView::from_runs(view.rows(), std::move(first_run), std::move(runs));
 }
 
-v1::View encode(const ColumnView* view, int heading, bool as_runs) {
+v1::View encode(const ColumnView* view, int heading, const ViewEncoding& encoding) {
   v1::View wire;
   if (view == nullptr) {
     wire.set_no_view(true);
-  } else if (as_runs) {
+  } else if (encoding.packed) {
+    wire.mutable_runs()->set_packed(protocol::pack_runs(*view, heading));
+  } else if (encoding.runs) {
     *wire.mutable_runs() = protocol::to_wire(heading == 0 ? *view : turned(*view, heading));
   } else {
     wire.set_labels(protocol::to_bytes(view->to_labels(heading).pixels()));
@@ -53,8 +56,11 @@ v1::View encode(const LabelImage& labels,
                 const RangeImage& ranges_m,
                 const ViewEncoding& encoding) {
   v1::View wire;
-  if (encoding.runs) {
-    *wire.mutable_runs() = protocol::to_wire(ColumnView::from_labels(labels));
+  const auto runs = [&labels] { return ColumnView::from_labels(labels); };
+  if (encoding.packed) {
+    wire.mutable_runs()->set_packed(protocol::pack_runs(runs()));
+  } else if (encoding.runs) {
+    *wire.mutable_runs() = protocol::to_wire(runs());
   } else {
     wire.set_labels(protocol::to_bytes(labels.pixels()));
   }
@@ -70,7 +76,7 @@ Status view_cells(Viewing& viewing, std::size_t begin, std::size_t end) {
               request.site->views().views(std::span(request.cells).subspan(begin, end - begin)));
   for (std::size_t i = begin; i < end; ++i) {
     for (const auto& [view, heading] : request.uses[i]) {
-      viewing.views[view] = encode(batch.views[i - begin].get(), heading, request.encoding.runs);
+      viewing.views[view] = encode(batch.views[i - begin].get(), heading, request.encoding);
     }
   }
   const std::lock_guard lock(viewing.mutex);

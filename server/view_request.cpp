@@ -31,8 +31,8 @@ Result<ViewEncoding> encoding_of(const v1::GetViewsRequest& wire) {
   if (wire.has_pinholes() && wire.encoding() == v1::VIEW_ENCODING_RUNS) {
     return protocol::wrong_field("encoding", "a pinhole image comes as pixels only");
   }
-  return ViewEncoding{!wire.has_pinholes() && wire.encoding() != v1::VIEW_ENCODING_PIXELS,
-                      wire.with_ranges()};
+  const bool runs = !wire.has_pinholes() && wire.encoding() != v1::VIEW_ENCODING_PIXELS;
+  return ViewEncoding{runs, runs && wire.packed_runs(), wire.with_ranges()};
 }
 
 std::uint64_t pixels_of_one(const ViewRequest& request) {

@@ -19,6 +19,7 @@ namespace semview::server {
 
 struct ViewEncoding {
   bool runs = true;
+  bool packed = false;  ///< runs as one string of bytes; never without `runs`
   bool ranges = false;
 };
 

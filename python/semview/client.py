@@ -107,6 +107,18 @@ def _similarity(sums, scale, pixels):
     return similarity
 
 
+def _labels_of_packed_runs(packed, rows, columns):
+    """docs/protocol.md#packed-runs; a column without runs of its own is the one before."""
+    number = np.dtype("u1" if rows <= 255 else "<u2")
+    counts = np.frombuffer(packed, number, columns).astype(np.int64)
+    runs = int(counts.sum())
+    ends = np.frombuffer(packed, number, runs, columns * number.itemsize).astype(np.int64)
+    labels = np.frombuffer(packed, np.uint8, runs, (columns + runs) * number.itemsize)
+    starts = np.r_[0, ends[:-1]] % rows
+    distinct = np.repeat(labels, ends - starts).reshape(-1, rows)
+    return np.ascontiguousarray(distinct[np.cumsum(counts > 0) - 1].T)
+
+
 def _labels_of_runs(runs, rows, columns):
     """Runs stand column by column: repeating each label by its run's length gives the transpose."""
     ends = np.fromiter(runs.end_rows, np.int64, len(runs.end_rows))
@@ -121,7 +133,9 @@ def _labels_of_runs(runs, rows, columns):
 def _view(wire, rows, columns):
     if wire.no_view:
         return View(None)
-    if wire.HasField("runs"):
+    if wire.runs.packed:
+        labels = _labels_of_packed_runs(wire.runs.packed, rows, columns)
+    elif wire.HasField("runs"):
         labels = _labels_of_runs(wire.runs, rows, columns)
     else:
         labels = np.frombuffer(wire.labels, np.uint8).reshape(rows, columns)
@@ -247,6 +261,7 @@ class Map:
 
     def _views(self, request, ranges):
         request.with_ranges = ranges
+        request.packed_runs = True
         reply = self._connection.call("GetViews", request, views_pb2.GetViewsReply)
         return [_view(view, reply.rows, reply.columns) for view in reply.views]
 

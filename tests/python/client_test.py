@@ -18,6 +18,8 @@ from pathlib import Path
 import numpy as np
 
 import semview
+from semview import client
+from semview.v1 import views_pb2
 
 SOURCE = Path(os.environ["SEMVIEW_SOURCE_DIR"])
 MAP = "duplex_level1"
@@ -104,6 +106,18 @@ class ClientTest(unittest.TestCase):
         x, y, _ = self.pose
         ahead, left = self.map.views([(x, y, 0.0), (x, y, np.pi / 2)])
         np.testing.assert_array_equal(left.labels, np.roll(ahead.labels, 90, axis=1))
+
+    def test_views_are_the_same_in_every_encoding(self):
+        (view,) = self.map.views([self.pose])
+        request = views_pb2.GetViewsRequest(map_id=MAP)
+        for field, number in zip(("x_m", "y_m", "yaw_rad"), self.pose):
+            getattr(request.poses, field).append(number)
+        for encoding in (views_pb2.VIEW_ENCODING_RUNS, views_pb2.VIEW_ENCODING_PIXELS):
+            request.encoding = encoding
+            reply = self.server.connection.call("GetViews", request, views_pb2.GetViewsReply)
+            self.assertEqual(reply.views[0].runs.packed, b"")
+            labels = client._view(reply.views[0], reply.rows, reply.columns).labels
+            np.testing.assert_array_equal(labels, view.labels)
 
     def test_a_pose_far_away_has_no_view(self):
         (view,) = self.map.views([(500.0, 500.0, 0.0)])

@@ -169,8 +169,11 @@ TEST_F(ServerTest, GridViewsAreTurnedToTheHeadingOfThePose) {
   const std::vector<Pose2> poses = {
       {1.05, 1.0, 0.0}, {1.05, 1.0, rad_from_deg(90.0)}, {-9.0, -9.0, 0.0}};
   protocol::to_wire(poses, request.mutable_poses());
-  for (const v1::ViewEncoding encoding : {v1::VIEW_ENCODING_RUNS, v1::VIEW_ENCODING_PIXELS}) {
+  for (const auto& [encoding, packed] : {std::pair(v1::VIEW_ENCODING_RUNS, false),
+                                         std::pair(v1::VIEW_ENCODING_RUNS, true),
+                                         std::pair(v1::VIEW_ENCODING_PIXELS, true)}) {
     request.set_encoding(encoding);
+    request.set_packed_runs(packed);
     const auto reply = client.get<v1::GetViewsReply>("GetViews", request);
     ASSERT_EQ(reply.views_size(), 3);
     EXPECT_TRUE(reply.views(2).no_view());
@@ -181,6 +184,7 @@ TEST_F(ServerTest, GridViewsAreTurnedToTheHeadingOfThePose) {
       if (encoding == v1::VIEW_ENCODING_PIXELS) {
         EXPECT_EQ(reply.views(i).labels(), protocol::to_bytes(expected.pixels()));
       } else {
+        EXPECT_EQ(reply.views(i).runs().packed().empty(), !packed);
         const auto view = protocol::from_wire(reply.views(i).runs(), 30, 120);
         ASSERT_TRUE(view);
         EXPECT_EQ(view->to_labels(), expected);

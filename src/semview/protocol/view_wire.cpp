@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "semview/protocol/envelope.hpp"
+#include "semview/protocol/packed_runs.hpp"
 #include "semview/view/view_profile.hpp"
 
 namespace semview::protocol {
@@ -176,6 +177,7 @@ v1::RunPanorama to_wire(const ColumnView& view) {
 }
 
 Result<ColumnView> from_wire(const v1::RunPanorama& wire, int rows, int columns) {
+  if (!wire.packed().empty()) return unpack_runs(wire.packed(), rows, columns);
   const auto runs_count = static_cast<std::size_t>(wire.end_rows_size());
   if (wire.runs_in_column_size() != columns || wire.labels().size() != runs_count) {
     return fail(ErrorCode::kDataLoss,

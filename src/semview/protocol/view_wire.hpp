@@ -41,7 +41,7 @@ Result<MapAffine> from_wire(const v1::Affine& wire, std::string_view field);
 Result<PinholeCamera> from_wire(const v1::ExactPinholes& wire, std::string_view field);
 
 v1::RunPanorama to_wire(const ColumnView& view);
-/// The runs of a panorama of `rows` × `columns`.
+/// The runs of a panorama of `rows` × `columns`, packed or as lists.
 /// @errors kDataLoss: not the canonical runs of such a panorama.
 Result<ColumnView> from_wire(const v1::RunPanorama& wire, int rows, int columns);
 
