@@ -20,6 +20,7 @@ endif()
 pkg_check_modules(lmdb REQUIRED IMPORTED_TARGET lmdb)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 

@@ -11,7 +11,7 @@ build=(
   cmake ninja-build g++ pkg-config
   libembree-dev libeigen3-dev libtinygltf-dev nlohmann-json3-dev
   cppzmq-dev libzmq3-dev libprotobuf-dev protobuf-compiler
-  liblmdb-dev libzstd-dev libxxhash-dev
+  liblmdb-dev libzstd-dev libxxhash-dev libhwy-dev
   libyaml-cpp-dev libpng-dev libcairo2-dev
   libspdlog-dev libfmt-dev libcli11-dev libexpected-dev
   ca-certificates
@@ -23,7 +23,7 @@ test=(
   clang-format git
 )
 runtime=(
-  libembree3-3 libzmq5 libprotobuf32 liblmdb0 libzstd1 libxxhash0
+  libembree3-3 libzmq5 libprotobuf32 liblmdb0 libzstd1 libxxhash0 libhwy1
   libyaml-cpp0.7 libpng16-16 libcairo2 libspdlog1.10 libfmt9
   ca-certificates
 )
