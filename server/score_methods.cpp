@@ -96,16 +96,16 @@ Result<Plan> plan_set_observation(Services& services, const Request& request) {
                            ? Result<similarity::WeightMatrix>(
                                  similarity::WeightMatrix::identity(site->map().classes))
                            : similarity::parse_weight_matrix(wire.weights_csv(), "weights_csv");
-  const auto prepared = weights ? similarity::PreparedObservation::build(
-                                      observation, *weights, site->map().classes, camera)
-                                : Result<similarity::PreparedObservation>(fail(weights.error()));
+  auto prepared = weights ? similarity::PreparedObservation::build(
+                                observation, *weights, site->map().classes, camera)
+                          : Result<similarity::PreparedObservation>(fail(weights.error()));
   if (!prepared) {
     Error error = prepared.error();
     const bool in_weights = !weights || error.code == ErrorCode::kFailedPrecondition;
     if (in_weights || error.field.empty()) error.field = in_weights ? "weights_csv" : "labels";
     return fail(std::move(error));
   }
-  const auto shared = std::make_shared<const similarity::PreparedObservation>(*prepared);
+  const auto shared = std::make_shared<const similarity::PreparedObservation>(*std::move(prepared));
   SEMVIEW_TRY(const std::uint64_t number,
               services.observations.add(request.client, {shared, site->id()}, shared->byte_size()));
   v1::SetObservationReply reply;

@@ -61,7 +61,7 @@ MODULES = {
     "map": Module(BASE | {"io", "picture"}, {"tinygltf", "nlohmann-json"}),
     "localization": Module({"core", "geometry"}, set()),
     "raycast": Module(VIEW | {"map"}, {"Embree", "Highway"}),
-    "similarity": Module(VIEW, set()),
+    "similarity": Module(VIEW, {"Highway"}),
     "cache": Module(VIEW, {"LMDB"}),
     "observation": Module(VIEW | {"localization"}, set()),
     "service": Module(SERVICE, set()),

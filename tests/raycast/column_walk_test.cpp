@@ -5,28 +5,13 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include "raycast/small_worlds.hpp"
 #include "semview/raycast/column_camera.hpp"
+#include "support/only_target.hpp"
 
 namespace semview::raycast {
 namespace {
-
-/// Walks are done by one target as long as this lives.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) { force(target); }
-  ~OnlyTarget() { force(0); }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-
- private:
-  static void force(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 /// Eyes on the plan and past it, some on pixel edges; any yaw, or none; any affine, or none.
 PanoramaRequest random_request(Rng& rng, const map::ColumnMap& plan) {

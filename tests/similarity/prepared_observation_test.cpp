@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include "reference/literal_similarity.hpp"
 #include "semview/view/view_profile.hpp"
 #include "similarity/random_scene.hpp"
+#include "support/only_target.hpp"
 
 namespace semview::similarity {
 namespace {
@@ -29,10 +32,17 @@ Observation all_of(ClassId label, const PanoramaCamera& camera) {
   return {kWallFloor, LabelImage(camera.rows, camera.columns, label), 0.0};
 }
 
+/// The sums at all headings, which every target of this machine agrees upon.
 std::array<std::int32_t, PoseGrid::kHeadings> curve(const PreparedObservation& prepared,
                                                     const ColumnView& view) {
   std::array<std::int32_t, PoseGrid::kHeadings> sums{};
   prepared.all_headings(view, sums);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    const OnlyTarget only(target);
+    std::array<std::int32_t, PoseGrid::kHeadings> others{};
+    prepared.all_headings(view, others);
+    EXPECT_EQ(others, sums) << hwy::TargetName(target);
+  }
   return sums;
 }
 
@@ -82,6 +92,42 @@ TEST(PreparedObservationTest, TheLargestSumsOfTheLargestPanoramaAreExact) {
         ColumnView::from_labels(LabelImage(camera.rows, camera.columns, ClassId{2}));
     EXPECT_THAT(curve(*prepared, view), Each(unit * camera.rows * camera.columns));
     EXPECT_EQ(prepared->sum(view, 77), unit * camera.rows * camera.columns);
+  }
+}
+
+TEST(PreparedObservationTest, SumsThatLeaveSixteenBitsOnTheWayAreExact) {
+  // Above the horizon a wall speaks for the wall and against the floor as much as can be, below it
+  // the other way round: prefix sums come to both ends of 16 bits, and differ by more than 16 bits
+  // where one run of a view ends and the next begins.
+  PanoramaCamera camera;
+  for (const auto& [columns, rows] : {std::pair(360, 90), std::pair(1800, 181)}) {
+    camera.columns = columns;
+    camera.rows = rows;
+    for (const double sign : {1.0, -1.0}) {
+      const std::vector<double> above{sign, -sign, sign, sign, -sign, sign};
+      std::vector<double> below;
+      for (const double weight : above) below.push_back(-weight);
+      for (const bool banded : {false, true}) {
+        const auto weights =
+            banded ? WeightMatrix::build({"wall", "floor"},
+                                         {"wall", "floor", "none"},
+                                         {{-90.0, 0.0, below}, {0.0, 90.0, above}})
+                   : WeightMatrix::build(
+                         {"wall", "floor"}, {"wall", "floor", "none"}, {{-90.0, 90.0, above}});
+        ASSERT_TRUE(weights);
+        const auto prepared =
+            PreparedObservation::build(all_of(1, camera), *weights, kWallFloor, camera);
+        ASSERT_TRUE(prepared);
+        for (const int edge : {0, 1, rows / 2, rows - 1, rows}) {
+          LabelImage labels(rows, columns, ClassId{2});
+          for (int r = 0; r < edge; ++r) std::ranges::fill(labels.row(r), ClassId{1});
+          const ColumnView view = ColumnView::from_labels(labels);
+          const std::int32_t expected =
+              reference::literal_sum(all_of(1, camera), *weights, kWallFloor, camera, view, 0);
+          EXPECT_THAT(curve(*prepared, view), Each(expected)) << rows << " rows, edge " << edge;
+        }
+      }
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "semview/core/result.hpp"
 #include "semview/geometry/panorama_camera.hpp"
 #include "semview/geometry/pose_grid.hpp"
+#include "semview/similarity/prefix_table.hpp"
 #include "semview/similarity/weight_matrix.hpp"
 #include "semview/view/column_view.hpp"
 #include "semview/view/observation.hpp"
@@ -23,11 +24,11 @@ inline constexpr std::size_t kMaxTableBytes = std::size_t{256} << 20U;
 ///
 /// Weights are rounded to integers, round(w · weight_scale()). P[row][map class][column] holds
 /// their sum over the observed pixels above `row` in one column, as if the whole map were of that
-/// class; a run (class, r0, r1) of a view's column m then adds P[r1][class][c] - P[r0][class][c],
-/// where c = m + heading · W/120 (mod W). The columns of one residue modulo W/120 lie together, so
-/// that one run serves all headings in one sweep over memory. The scale is
+/// class (`PrefixTable`); a run (class, r0, r1) of a view's column m then adds P[r1][class][c] -
+/// P[r0][class][c], where c = m + heading · W/120 (mod W). The scale is
 /// floor(min(400, 32767 / (H · max|w|))), less where rounding would let an entry of P leave 16 bits
-/// (364 for 90 rows and weights up to 1); sums are 32-bit.
+/// (364 for 90 rows and weights up to 1); sums are 32-bit. What was not observed costs nothing:
+/// unknown pixels have weight 0, and columns outside the camera's field of view have no entries.
 ///
 /// Immutable. @threads safe
 /// @source Neubert et al. 2017, equation (1); the literal form is
@@ -50,40 +51,33 @@ class PreparedObservation {
     return static_cast<double>(sum) /
            (static_cast<double>(weight_scale_) * static_cast<double>(observed_pixels_));
   }
-  std::size_t byte_size() const {
-    return sizeof(PreparedObservation) + table_.capacity() * sizeof(std::int16_t);
-  }
+  std::size_t byte_size() const { return sizeof(PreparedObservation) + table_.byte_size(); }
 
   /// True if `view` has this camera's shape and only classes of this map. The sums below are
   /// defined for such views only.
   bool fits(const ColumnView& view) const;
 
-  /// The sum at one heading of the PoseGrid, in [0, 120).
+  /// The sum at one heading of the PoseGrid, in [0, 120). @cost runs of the observed columns
   std::int32_t sum(const ColumnView& view, int heading) const;
 
-  /// The sums at all headings. @cost runs × observed columns / (W/120) 16-bit additions; about a
-  /// hundredth of a loop over the pixels (bench/RESULTS.md)
+  /// The sums at all headings. @cost runs × observed columns / (W/120) 16-bit additions; some
+  /// hundredths of a loop over the pixels (bench/RESULTS.md)
   void all_headings(const ColumnView& view,
                     std::span<std::int32_t, PoseGrid::kHeadings> sums) const;
 
+  /// The sum at each of some headings, which may repeat: one after the other, or all at once where
+  /// that is cheaper.
+  void some_headings(const ColumnView& view,
+                     std::span<const std::uint8_t> headings,
+                     std::span<std::int32_t> sums) const;
+
  private:
   PreparedObservation() = default;
+  bool sweep_pays(std::size_t headings) const;
 
-  std::size_t row_stride() const { return static_cast<std::size_t>(map_classes_) * class_stride(); }
-  std::size_t class_stride() const {
-    return static_cast<std::size_t>(residues_) * static_cast<std::size_t>(width_);
-  }
-  void fill(const LabelImage& labels, std::span<const std::int16_t* const> weights_of_row);
-
-  int rows_ = 0;
-  int columns_ = 0;
-  int map_classes_ = 0;  ///< with class 0
-  int residues_ = 1;     ///< W / 120
-  int first_ = 0;        ///< c / residues_ of the first observed column
-  int width_ = 0;        ///< padded number of columns of one residue
   std::int32_t weight_scale_ = 1;
   std::int32_t observed_pixels_ = 0;
-  std::vector<std::int16_t> table_;  ///< P: [row 0..rows][map class][residue][column]
+  PrefixTable table_;
 };
 
 }  // namespace semview::similarity

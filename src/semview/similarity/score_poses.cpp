@@ -15,8 +15,6 @@ namespace semview::similarity {
 namespace {
 
 constexpr std::size_t kHeadings = PoseGrid::kHeadings;
-/// From so many headings of one cell on, computing all of them at once is cheaper.
-constexpr std::size_t kSweepFrom = 4;
 
 /// The poses of the request that share a cell: `order[first, last)`.
 struct CellGroup {
@@ -109,22 +107,21 @@ class CellScorer {
     }
   }
 
+  /// `poses` are in order of their headings.
   void as_given(std::span<const std::size_t> poses, const ColumnView& view) const {
-    const auto heading = [&](std::size_t pose) { return grouping_.headings[pose]; };
-    std::size_t distinct = 1;
-    for (std::size_t i = 1; i < poses.size(); ++i) {
-      if (heading(poses[i]) != heading(poses[i - 1])) ++distinct;
+    std::array<std::uint8_t, kHeadings> headings{};
+    std::size_t distinct = 0;
+    for (const std::size_t pose : poses) {
+      const std::uint8_t heading = grouping_.headings[pose];
+      if (distinct == 0 || headings[distinct - 1] != heading) headings[distinct++] = heading;
     }
-    if (distinct >= kSweepFrom) {
-      std::array<std::int32_t, kHeadings> sums{};
-      observation_.all_headings(view, sums);
-      for (const std::size_t pose : poses) batch_.sums[pose] = sums[heading(pose)];
-      return;
-    }
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const bool repeated = i > 0 && heading(poses[i]) == heading(poses[i - 1]);
-      batch_.sums[poses[i]] =
-          repeated ? batch_.sums[poses[i - 1]] : observation_.sum(view, heading(poses[i]));
+    std::array<std::int32_t, kHeadings> sums{};
+    observation_.some_headings(
+        view, std::span(headings).first(distinct), std::span(sums).first(distinct));
+    std::size_t i = 0;
+    for (const std::size_t pose : poses) {
+      if (headings[i] != grouping_.headings[pose]) ++i;
+      batch_.sums[pose] = sums[i];
     }
   }
 
