@@ -24,18 +24,14 @@ struct Viewing {
   ViewOrigins origins;
 };
 
-/// The same panorama turned to a heading of the grid, as runs.
+/// The same panorama turned to a heading of the grid.
 ColumnView turned(const ColumnView& view, int heading) {
-  std::vector<std::uint32_t> first_run{0};
-  std::vector<Run> runs;
-  runs.reserve(view.runs().size());
+  std::vector<std::uint32_t> columns(static_cast<std::size_t>(view.columns()));
   for (int c = 0; c < view.columns(); ++c) {
-    const auto source = view.column(PoseGrid::source_column(c, heading, view.columns()));
-    runs.insert(runs.end(), source.begin(), source.end());
-    first_run.push_back(static_cast<std::uint32_t>(runs.size()));
+    columns[static_cast<std::size_t>(c)] =
+        static_cast<std::uint32_t>(PoseGrid::source_column(c, heading, view.columns()));
   }
-  // Its columns are those of a sound view.
-  return *ColumnView::from_runs(view.rows(), std::move(first_run), std::move(runs));
+  return view.arranged(columns);
 }
 
 v1::View encode(const ColumnView* view, int heading, const ViewEncoding& encoding) {
@@ -43,7 +39,8 @@ v1::View encode(const ColumnView* view, int heading, const ViewEncoding& encodin
   if (view == nullptr) {
     wire.set_no_view(true);
   } else if (encoding.packed) {
-    wire.mutable_runs()->set_packed(protocol::pack_runs(*view, heading));
+    wire.mutable_runs()->set_packed(
+        protocol::pack_runs(heading == 0 ? *view : turned(*view, heading)));
   } else if (encoding.runs) {
     *wire.mutable_runs() = protocol::to_wire(heading == 0 ? *view : turned(*view, heading));
   } else {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "semview/geometry/pose_grid.hpp"
 #include "semview/protocol/view_wire.hpp"
 
 namespace semview::protocol {
@@ -50,16 +49,6 @@ TEST(PackedRunsTest, ViewsComeBackAsTheyWere) {
     const Result<ColumnView> back = unpack_runs(pack_runs(view), rows, view.columns());
     RC_ASSERT(back.has_value());
     RC_ASSERT(*back == view);
-  }));
-}
-
-TEST(PackedRunsTest, ATurnedViewIsThatOfTheTurnedPicture) {
-  ASSERT_TRUE(rc::check([] {
-    const ColumnView view = ColumnView::from_labels(random_labels(3, 2 * PoseGrid::kHeadings));
-    const int heading = *rc::gen::inRange(0, PoseGrid::kHeadings);
-    const auto back = unpack_runs(pack_runs(view, heading), view.rows(), view.columns());
-    RC_ASSERT(back.has_value());
-    RC_ASSERT(*back == ColumnView::from_labels(view.to_labels(heading)));
   }));
 }
 

@@ -43,5 +43,20 @@ RC_GTEST_PROP(ColumnViewProperty, TurningByAHeadingMovesColumnsAsTheGridSays, ()
   }
 }
 
+RC_GTEST_PROP(ColumnViewProperty, ArrangedColumnsAreThoseNamed, ()) {
+  const int count = *rc::gen::inRange(1, 20);
+  const LabelImage labels = any_labels(count);
+  const auto columns =
+      *rc::gen::container<std::vector<std::uint32_t>>(rc::gen::inRange<std::uint32_t>(0, count));
+  const ColumnView view = ColumnView::from_labels(labels).arranged(columns);
+  LabelImage expected(labels.rows(), static_cast<int>(columns.size()));
+  for (int c = 0; c < expected.columns(); ++c) {
+    const auto source = static_cast<int>(columns[static_cast<std::size_t>(c)]);
+    for (int r = 0; r < labels.rows(); ++r) expected.at(r, c) = labels.at(r, source);
+  }
+  RC_ASSERT(view.rows() == labels.rows());
+  RC_ASSERT(view.to_labels() == expected);
+}
+
 }  // namespace
 }  // namespace semview

@@ -90,6 +90,15 @@ TEST_F(SeenWallTest, PlanesGiveTheRangesBack) {
   }
 }
 
+TEST_F(SeenWallTest, ArrangedColumnsKeepTheirPlanes) {
+  planes_[4].a_per_m *= 2.0F;  // column 1 is nearer
+  const ColumnView view = *ColumnView::from_runs(16, first_run_, runs_, planes_);
+  const ColumnView two = view.arranged(std::vector<std::uint32_t>{1, 0});
+  ASSERT_EQ(two.planes().size(), 6U);
+  EXPECT_EQ(two.planes()[1], planes_[4]);
+  EXPECT_EQ(two.planes()[4], planes_[1]);
+}
+
 TEST_F(SeenWallTest, OneClassOnTwoSurfacesIsTwoRuns) {
   for (semview::Run& run : runs_) run.label = run.label == 1 ? 2 : run.label;
   EXPECT_TRUE(ColumnView::from_runs(16, first_run_, runs_, planes_));

@@ -10,9 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "semview/core/check.hpp"
-#include "semview/geometry/pose_grid.hpp"
-
 namespace semview::protocol {
 namespace {
 
@@ -34,7 +31,7 @@ std::uint32_t get(const char* from) {
 }
 
 template <std::size_t kBytes>
-std::string pack(const ColumnView& view, int heading) {
+std::string pack(const ColumnView& view) {
   const auto columns = static_cast<std::size_t>(view.columns());
   const std::size_t head = columns * kBytes;
   // Room for all runs; repeated columns leave some of it.
@@ -45,8 +42,7 @@ std::string pack(const ColumnView& view, int heading) {
   char* label = labels.data();
   std::span<const Run> before;
   for (int c = 0; c < view.columns(); ++c) {
-    const std::span<const Run> column =
-        view.column(heading == 0 ? c : PoseGrid::source_column(c, heading, view.columns()));
+    const std::span<const Run> column = view.column(c);
     if (std::ranges::equal(column, before)) continue;
     put<kBytes>(bytes.data() + static_cast<std::size_t>(c) * kBytes,
                 static_cast<std::uint32_t>(column.size()));
@@ -63,60 +59,54 @@ std::string pack(const ColumnView& view, int heading) {
   return bytes;
 }
 
+/// The columns that bring runs of their own are read as a view, and checked as one; the others
+/// repeat them.
 template <std::size_t kBytes>
 Result<ColumnView> unpack(std::string_view bytes, int rows, int columns) {
-  const std::size_t head = static_cast<std::size_t>(columns) * kBytes;
-  std::size_t sent = 0;      // runs of columns that bring their own
-  std::size_t all = 0;       // and of those that repeat the one before
-  std::uint32_t before = 0;  // runs of the column before
-  for (std::size_t at = 0; at + kBytes <= std::min(head, bytes.size()); at += kBytes) {
-    const std::uint32_t count = get<kBytes>(bytes.data() + at);
-    // Else few bytes could ask for much memory.
-    if (count > static_cast<std::uint32_t>(rows)) {
-      return fail(
-          ErrorCode::kDataLoss,
-          fmt::format("view: column {} of {} runs; it has {} rows", at / kBytes, count, rows));
-    }
-    if (count > 0) before = count;
-    sent += count;
-    all += before;
-  }
-  if (bytes.size() != head + sent * (kBytes + 1)) {
+  const auto count_of_columns = static_cast<std::size_t>(columns);
+  const std::size_t head = count_of_columns * kBytes;
+  if (columns < 1 || bytes.size() < head) {
     return fail(ErrorCode::kDataLoss,
-                fmt::format("view: {} bytes; expected {} columns and {} runs of {} bytes",
+                fmt::format("view: {} bytes; expected {} columns", bytes.size(), columns));
+  }
+  std::vector<std::uint32_t> first_run(count_of_columns + 1);
+  thread_local std::vector<std::uint32_t> source;
+  source.resize(count_of_columns);
+  std::size_t own = 0;
+  std::uint32_t runs_count = 0;
+  for (std::size_t c = 0; c < count_of_columns; ++c) {
+    const std::uint32_t count = get<kBytes>(bytes.data() + c * kBytes);
+    own += count == 0 ? 0 : 1;
+    runs_count += count;
+    source[c] = static_cast<std::uint32_t>(own) - 1;
+    first_run[own] = runs_count;
+  }
+  if (bytes.size() != head + runs_count * (kBytes + 1) || source.front() != 0) {
+    return fail(ErrorCode::kDataLoss,
+                fmt::format("view: {} bytes; expected {} columns, the first with runs, and {} runs "
+                            "of {} bytes",
                             bytes.size(),
                             columns,
-                            sent,
+                            runs_count,
                             kBytes + 1));
   }
-  const char* end_row = bytes.data() + head;
-  const char* label = end_row + sent * kBytes;
-  std::vector<std::uint32_t> first_run(static_cast<std::size_t>(columns) + 1);
-  std::vector<Run> runs(all);
-  Run* next = runs.data();
-  before = 0;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(columns); ++c) {
-    first_run[c] = static_cast<std::uint32_t>(next - runs.data());
-    const std::uint32_t count = get<kBytes>(bytes.data() + c * kBytes);
-    if (count == 0) {
-      next = std::copy_n(next - before, before, next);
-      continue;
-    }
-    for (std::uint32_t i = 0; i < count; ++i) {
-      *next++ = {static_cast<std::uint16_t>(get<kBytes>(end_row)), static_cast<ClassId>(*label++)};
-      end_row += kBytes;
-    }
-    before = count;
+  first_run.resize(own + 1);
+  std::vector<Run> runs(runs_count);
+  const char* const end_rows = bytes.data() + head;
+  const char* const labels = end_rows + runs_count * kBytes;
+  for (std::size_t i = 0; i < runs_count; ++i) {
+    runs[i] = {static_cast<std::uint16_t>(get<kBytes>(end_rows + i * kBytes)),
+               static_cast<ClassId>(labels[i])};
   }
-  first_run.back() = static_cast<std::uint32_t>(all);
-  return ColumnView::from_runs(rows, std::move(first_run), std::move(runs));
+  SEMVIEW_TRY(const ColumnView distinct,
+              ColumnView::from_runs(rows, std::move(first_run), std::move(runs)));
+  return distinct.arranged(source);
 }
 
 }  // namespace
 
-std::string pack_runs(const ColumnView& view, int heading) {
-  SEMVIEW_CHECK(heading == 0 || view.columns() % PoseGrid::kHeadings == 0);
-  return view.rows() <= kMaxRowsOfOneByte ? pack<1>(view, heading) : pack<2>(view, heading);
+std::string pack_runs(const ColumnView& view) {
+  return view.rows() <= kMaxRowsOfOneByte ? pack<1>(view) : pack<2>(view);
 }
 
 Result<ColumnView> unpack_runs(std::string_view bytes, int rows, int columns) {

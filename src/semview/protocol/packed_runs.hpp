@@ -10,9 +10,7 @@
 
 namespace semview::protocol {
 
-/// The runs of `view` turned to a heading of the PoseGrid; columns() must be a multiple of 120
-/// unless `heading` is 0.
-std::string pack_runs(const ColumnView& view, int heading = 0);
+std::string pack_runs(const ColumnView& view);
 
 /// The view packed in `bytes`, which may come from anybody.
 /// @errors kDataLoss: not the runs of a view of `rows` × `columns`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/view/column_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -85,6 +86,37 @@ Result<ColumnView> ColumnView::from_runs(int rows,
   view.first_run_ = std::move(first_run);
   view.runs_ = std::move(runs);
   view.planes_ = std::move(planes);
+  return view;
+}
+
+ColumnView ColumnView::arranged(std::span<const std::uint32_t> columns) const {
+  // Runs are copied this many at once, the next column overwriting what was too much: in no order
+  // of columns can a processor foresee how many runs each has.
+  constexpr std::uint32_t kAtOnce = 4;
+  ColumnView view;
+  view.rows_ = rows_;
+  view.first_run_.reserve(columns.size() + 1);
+  view.first_run_.push_back(0);
+  for (const std::uint32_t c : columns) {
+    view.first_run_.push_back(view.first_run_.back() + first_run_[c + 1] - first_run_[c]);
+  }
+  view.runs_.resize(view.first_run_.back());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const std::uint32_t from = first_run_[columns[c]];
+    const std::uint32_t count = first_run_[columns[c] + 1] - from;
+    const std::uint32_t to = view.first_run_[c];
+    if (from + count + kAtOnce <= runs_.size() && to + count + kAtOnce <= view.runs_.size()) {
+      for (std::uint32_t i = 0; i < count; i += kAtOnce) {
+        std::copy_n(&runs_[from + i], kAtOnce, &view.runs_[to + i]);
+      }
+    } else {
+      std::copy_n(runs_.begin() + from, count, view.runs_.begin() + to);
+    }
+    if (has_ranges()) {
+      view.planes_.insert(
+          view.planes_.end(), planes_.begin() + from, planes_.begin() + from + count);
+    }
+  }
   return view;
 }
 

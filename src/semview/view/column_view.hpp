@@ -63,6 +63,9 @@ class ColumnView {
                                       std::vector<Run> runs,
                                       std::vector<RunPlane> planes = {});
 
+  /// The view whose column c is column `columns[c]` of this one; each below columns().
+  ColumnView arranged(std::span<const std::uint32_t> columns) const;
+
   int columns() const { return first_run_.empty() ? 0 : static_cast<int>(first_run_.size()) - 1; }
   int rows() const { return rows_; }
   std::span<const Run> column(int c) const {
