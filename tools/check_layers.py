@@ -69,11 +69,12 @@ MODULES = {
     "simulation": Module(VIEW | {"io", "map", "raycast", "localization"}, set()),
     "evaluation": Module(SERVICE | {"service", "localization", "observation", "simulation", "picture"},
                          set()),
+    "benchmark": Module(SERVICE | {"picture"}, {"zstd"}),
     "server": Module(SERVICE | {"service", "protocol"}, {"ZeroMQ", "CLI11"}),
     "client/lib": Module(VIEW | {"similarity", "protocol"}, {"ZeroMQ"}),
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
     "cli": Module(SERVICE | {"service", "picture", "localization", "observation", "simulation",
-                             "evaluation", "client/lib", "client/robot"},
+                             "evaluation", "benchmark", "client/lib", "client/robot"},
                   {"CLI11", "nlohmann-json"}),
 }
 PROGRAMS = {"server", "cli"}
@@ -81,7 +82,7 @@ PROGRAMS = {"server", "cli"}
 TARGETS = {"client": "client/lib", "robot": "client/robot", "messages": "protocol"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-SYSTEM = re.compile(r"^([a-z0-9_]+|sys/[a-z]+\.h|fcntl\.h|unistd\.h|xmmintrin\.h)$")
+SYSTEM = re.compile(r"^([a-z0-9_]+|sys/[a-z]+\.h|dlfcn\.h|fcntl\.h|unistd\.h|xmmintrin\.h)$")
 
 
 def folder_of(root, module):

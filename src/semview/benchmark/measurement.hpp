@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the rows of the table are made of. Inside the module only.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "semview/benchmark/interleave.hpp"
+#include "semview/benchmark/subject.hpp"
+#include "semview/benchmark/table.hpp"
+
+namespace semview::benchmark::detail {
+
+/// How much is measured at a time.
+struct Extent {
+  std::size_t views = 8;              ///< cast a pass
+  std::size_t slow_views = 2;         ///< of an alternative hundreds of times as slow
+  std::size_t cells = 64;             ///< scored a pass
+  std::size_t slow_cells = 4;         ///< of an alternative hundreds of times as slow
+  std::size_t floor_cells = 100'000;  ///< of the posterior of a whole floor
+  std::size_t stored_cells = 512;     ///< coded and stored
+  TurnsConfig turns = {};
+};
+
+struct Circumstances {
+  const Subject& subject;
+  PanoramaCamera camera;
+  ThreadPool& pool;
+  const Extent& extent;
+};
+
+/// Fills in a row's finding, or its note.
+/// @errors Any: the results do not agree, or there are none.
+using Measure = std::function<Status(const Circumstances&, Row&)>;
+
+/// On which plans a row is worth its time.
+enum class Plans { kAll, kDrawn, kFirst };
+
+struct RowKind {
+  std::string id;
+  std::string claim;
+  std::vector<Goal> goals;  ///< for panoramas of 360 columns and, if there are two, of 720
+  Plans plans = Plans::kAll;
+  bool one_thread_only = false;
+  Measure measure;
+};
+
+std::vector<RowKind> cast_rows();
+std::vector<RowKind> score_rows();
+std::vector<RowKind> storage_rows();
+
+Goal at_least(double ratio);
+
+/// An item of work whose results are kept, as the program would: `make(i)` gives the i-th.
+template <typename Made, typename Make>
+Contender keeping(std::size_t items, std::vector<Made>& kept, const Make& make) {
+  kept.resize(items);
+  return {items, [&kept, make](std::size_t i) { kept[i] = make(i); }};
+}
+
+}  // namespace semview::benchmark::detail

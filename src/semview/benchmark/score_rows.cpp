@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ways to score a view at all 120 headings.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "semview/benchmark/measurement.hpp"
+#include "semview/benchmark/peer.hpp"
+#include "semview/benchmark/pixel_scorer.hpp"
+#include "semview/benchmark/scoring_task.hpp"
+
+namespace semview::benchmark::detail {
+namespace {
+
+using IntegerSums = HeadingSums<std::int32_t>;
+
+/// The largest difference of two similarities of one view and heading, in similarity.
+template <typename Sums>
+double worst_difference(const ScoringTask& task, const IntegerSums& ours, const Sums& other) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < ours.size(); ++k) {
+    const double theirs = static_cast<double>(other[k]) / task.prepared.observed_pixels();
+    worst = std::max(worst, std::abs(task.prepared.similarity(ours[k]) - theirs));
+  }
+  return worst;
+}
+
+IntegerSums compass(const ScoringTask& task, std::size_t view) {
+  IntegerSums sums{};
+  task.prepared.all_headings(task.views[view], sums);
+  return sums;
+}
+
+/// Half a unit of the last integer, and what float additions of that many pixels lose.
+double tolerance(const ScoringTask& task) { return 0.5 / task.prepared.weight_scale() + 1e-4; }
+
+Status disagree(const std::string& with, double worst) {
+  return fail(ErrorCode::kInternal,
+              fmt::format("results differ: similarities of {} by {:.2g}", with, worst));
+}
+
+Status compass_and_float_loop(const Circumstances& in, Row& row) {
+  SEMVIEW_TRY(const ScoringTask task, scoring_task(in.subject, in.camera, in.extent.cells));
+  const ClassTable& classes = in.subject.map->classes;
+  const PixelWeights<float> real(task.weights, classes, classes, 1.0);
+  const PixelWeights<std::int32_t> whole(
+      task.weights, classes, classes, task.prepared.weight_scale());
+  const std::size_t slow = std::min(in.extent.slow_cells, task.views.size());
+  std::vector<LabelImage> pixels;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < slow; ++i) {
+    pixels.push_back(task.views[i].to_labels(0));
+    const IntegerSums ours = compass(task, i);
+    if (ours !=
+        score_pixels<std::int32_t, std::int32_t>(task.observation.labels, pixels[i], whole)) {
+      return fail(ErrorCode::kInternal, "results differ: integer sums of runs and of pixels");
+    }
+    worst = std::max(
+        worst,
+        worst_difference(
+            task, ours, score_pixels<float, float>(task.observation.labels, pixels[i], real)));
+  }
+  if (worst > tolerance(task)) return disagree("the float loop", worst);
+  std::vector<IntegerSums> our_sums;
+  std::vector<HeadingSums<float>> other_sums;
+  const Turns turns = take_turns(
+      keeping(task.views.size(), our_sums, [&](std::size_t i) { return compass(task, i); }),
+      keeping(slow,
+              other_sums,
+              [&](std::size_t i) {
+                return score_pixels<float, float>(task.observation.labels, pixels[i], real);
+              }),
+      in.pool,
+      in.extent.turns);
+  row.found = finding_of(
+      turns, fmt::format("sums equal those of integer pixels, floats within {:.1g}", worst));
+  return {};
+}
+
+/// The weight of each map class under each pixel of the observation.
+WeightImages weight_images(const ScoringTask& task, const ClassTable& classes) {
+  const PixelWeights<float> weights(task.weights, classes, classes, 1.0);
+  const LabelImage& labels = task.observation.labels;
+  WeightImages images;
+  for (int map_class = 0; map_class <= classes.size(); ++map_class) {
+    Image<float> image(labels.rows(), labels.columns());
+    for (std::size_t i = 0; i < labels.pixels().size(); ++i) {
+      image.pixels()[i] = weights.at(labels.pixels()[i], static_cast<ClassId>(map_class));
+    }
+    images.push_back(std::move(image));
+  }
+  return images;
+}
+
+Status compass_and_match_template(const Circumstances& in, Row& row) {
+  SEMVIEW_TRY(const ScoringTask task, scoring_task(in.subject, in.camera, in.extent.cells));
+  const auto peer = open_match_peer(weight_images(task, in.subject.map->classes));
+  if (!peer) {
+    row.note = peer.error().message;
+    return {};
+  }
+  const std::size_t slow = std::min(in.extent.slow_cells, task.views.size());
+  std::vector<LabelImage> pixels;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < slow; ++i) {
+    pixels.push_back(task.views[i].to_labels(0));
+    worst = std::max(worst, worst_difference(task, compass(task, i), (*peer)->headings(pixels[i])));
+  }
+  if (worst > tolerance(task)) return disagree("matchTemplate", worst);
+  std::vector<IntegerSums> our_sums;
+  std::vector<std::vector<float>> other_sums;
+  const Turns turns = take_turns(
+      keeping(task.views.size(), our_sums, [&](std::size_t i) { return compass(task, i); }),
+      keeping(slow, other_sums, [&](std::size_t i) { return (*peer)->headings(pixels[i]); }),
+      in.pool,
+      in.extent.turns);
+  row.found = finding_of(turns, fmt::format("similarities within {:.1g}", worst));
+  return {};
+}
+
+/// All headings of every free cell of the floor, or of as many as make 12 M poses.
+Status dense_posterior(const Circumstances& in, Row& row) {
+  SEMVIEW_TRY(const ScoringTask task, scoring_task(in.subject, in.camera, in.extent.floor_cells));
+  std::vector<std::int32_t> best;
+  const Timing time =
+      time_alone(keeping(task.views.size(),
+                         best,
+                         [&](std::size_t i) { return std::ranges::max(compass(task, i)); }),
+                 in.pool,
+                 in.extent.turns);
+  const double poses = static_cast<double>(task.views.size()) * PoseGrid::kHeadings;
+  constexpr double kPoses = 12e6;
+  Finding found;
+  found.unit = "s";
+  found.ours = time.least_s * kPoses / PoseGrid::kHeadings;
+  found.ours_median = time.median_s * kPoses / PoseGrid::kHeadings;
+  found.agreement = fmt::format("measured on {:.1f} M poses", 1e-6 * poses);
+  row.found = std::move(found);
+  return {};
+}
+
+}  // namespace
+
+std::vector<RowKind> score_rows() {
+  return {
+      {"compass",
+       "compass of a view; naive float loop",
+       {at_least(264.0)},
+       Plans::kAll,
+       false,
+       compass_and_float_loop},
+      {"template",
+       "compass of a view; OpenCV matchTemplate",
+       {},
+       Plans::kFirst,
+       true,
+       compass_and_match_template},
+      {"posterior",
+       "dense posterior of 12 M poses",
+       {{"at most 1 s", 1.0, true, true}},
+       Plans::kFirst,
+       false,
+       dense_posterior},
+  };
+}
+
+}  // namespace semview::benchmark::detail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a stored view costs, in bytes and in time.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include "semview/benchmark/measurement.hpp"
+#include "semview/view/view_codec.hpp"
+
+namespace semview::benchmark::detail {
+namespace {
+
+std::vector<ColumnView> cast_views(const Circumstances& in) {
+  std::vector<ColumnView> views;
+  for (const CellIndex& cell : in.subject.sample(in.extent.stored_cells)) {
+    views.push_back(in.subject.runs(in.subject.request(cell, in.camera)));
+  }
+  return views;
+}
+
+/// Bytes of the pixels after zstd at its usual level.
+std::size_t zstd_bytes(const LabelImage& pixels) {
+  std::vector<char> packed(ZSTD_compressBound(pixels.pixels().size()));
+  return ZSTD_compress(
+      packed.data(), packed.size(), pixels.pixels().data(), pixels.pixels().size(), 3);
+}
+
+Status stored_bytes(const Circumstances& in, Row& row) {
+  const std::vector<ColumnView> views = cast_views(in);
+  double ours = 0.0, other = 0.0;
+  for (const ColumnView& view : views) {
+    const std::vector<std::byte> coded = encode_view(view);
+    const auto decoded = decode_view(coded, view.columns(), view.rows());
+    if (!decoded || *decoded != view) {
+      return fail(ErrorCode::kInternal, "results differ: a view and what was stored of it");
+    }
+    ours += static_cast<double>(coded.size());
+    other += static_cast<double>(zstd_bytes(view.to_labels(0)));
+  }
+  const auto count = static_cast<double>(views.size());
+  row.found = Finding{"B",
+                      ours / count,
+                      ours / count,
+                      other / count,
+                      other / count,
+                      other / ours,
+                      other / ours,
+                      1,
+                      fmt::format("{} views read back equal", views.size())};
+  return {};
+}
+
+}  // namespace
+
+std::vector<RowKind> storage_rows() {
+  return {
+      {"bytes",
+       "stored bytes a view; pixels and zstd",
+       {{"at most 330 B", 330.0, true, true}},
+       Plans::kAll,
+       true,
+       stored_bytes},
+  };
+}
+
+}  // namespace semview::benchmark::detail
