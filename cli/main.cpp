@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
     semview::cli::add_score_verb(app, exit_code);
     semview::cli::add_heatmap_verb(app, exit_code);
     semview::cli::add_localize_verb(app, exit_code);
+    semview::cli::add_bench_verb(app, exit_code);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 #
 #   tools/install_deps.sh --build     what compiling needs (the default)
 #   tools/install_deps.sh --test      that, and what the tests need
+#   tools/install_deps.sh --bench     that of --build, the benchmarks, and what they compare with
 #   tools/install_deps.sh --runtime   only the libraries that the installed programs need
 set -euo pipefail
 
@@ -22,6 +23,8 @@ test=(
   python3 python3-numpy python3-zmq python3-protobuf
   clang-format git
 )
+# Open3D brings fifty libraries; without it, or OpenCV, `semview bench` says so in its rows.
+bench=(libbenchmark-dev libopen3d-dev libopencv-imgproc-dev python3 python3-numpy)
 runtime=(
   libembree3-3 libzmq5 libprotobuf32 liblmdb0 libzstd1 libxxhash0 libhwy1
   libyaml-cpp0.7 libpng16-16 libcairo2 libspdlog1.10 libfmt9
@@ -35,8 +38,9 @@ wanted=()
 case "${1:---build}" in
   --build) wanted=("${build[@]}") ;;
   --test) wanted=("${build[@]}" "${test[@]}") ;;
+  --bench) wanted=("${build[@]}" "${bench[@]}") ;;
   --runtime) wanted=("${runtime[@]}") ;;
-  *) sed -n '3,8p' "$0" | cut -c3-; exit 2 ;;
+  *) sed -n '3,9p' "$0" | cut -c3-; exit 2 ;;
 esac
 # npm only where no npm is: a Node.js from elsewhere conflicts with Debian's package.
 if [[ "${1:-}" == --test ]] && ! command -v npm >/dev/null; then
