@@ -120,11 +120,11 @@ class CheckLayersTest(unittest.TestCase):
             "src/semview/segmentation: a module that tools/check_layers.py does not know")
 
     def test_the_page_on_architecture_has_the_same_table(self):
-        self.replace("docs/architecture.md", "| Embree |", "| Embree, OpenCV |")
+        self.replace("docs/architecture.md", "| LMDB |", "| LMDB, OpenCV |")
         code, lines = self.check()
         self.assertEqual((code, len(lines)), (1, 1))
-        self.assertRegex(lines[0], r"^docs/architecture.md:\d+: libraries of raycast other than in "
-                                   r"tools/check_layers.py: Embree$")
+        self.assertRegex(lines[0], r"^docs/architecture.md:\d+: libraries of cache other than in "
+                                   r"tools/check_layers.py: LMDB$")
 
 
 if __name__ == "__main__":
