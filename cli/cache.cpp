@@ -33,6 +33,12 @@ Result<cache::LmdbConfig> existing(const Options& options) {
 }
 
 nlohmann::json to_json(const cache::KeyspaceEntry& entry) {
+  if (!entry.described) {
+    return {{"map", ""},
+            {"views", entry.stored},
+            {"record_bytes", entry.record_bytes},
+            {"payload_bytes", entry.payload_bytes}};
+  }
   const ViewProfile& profile = entry.keyspace.profile;
   return {{"map", entry.map_id},
           {"fingerprint", to_hex(entry.keyspace.map)},
@@ -43,6 +49,7 @@ nlohmann::json to_json(const cache::KeyspaceEntry& entry) {
           {"elevation_min_deg", deg_from_rad(profile.camera.elevation_min_rad)},
           {"elevation_max_deg", deg_from_rad(profile.camera.elevation_max_rad)},
           {"eye_height_m", profile.eye_height_m},
+          {"ranges", profile.ranges},
           {"map_cells", entry.cells.size()},
           {"map_cells_stored", entry.stored_cells},
           {"complete", entry.complete()},
@@ -55,15 +62,18 @@ void print(const cache::KeyspaceEntry& entry) {
   const ViewProfile& profile = entry.keyspace.profile;
   fmt::print("{}  {}\n",
              entry.map_id.empty() ? "(map not known)" : entry.map_id,
-             to_hex(entry.keyspace.map));
-  fmt::print("  views of   {} x {} pixels, {:g} to {:g} degrees, eye at {:g} m, by {} {}\n",
-             profile.camera.columns,
-             profile.camera.rows,
-             deg_from_rad(profile.camera.elevation_min_rad),
-             deg_from_rad(profile.camera.elevation_max_rad),
-             profile.eye_height_m,
-             entry.keyspace.engine,
-             entry.keyspace.engine_version);
+             entry.described ? to_hex(entry.keyspace.map) : "(its description is lost)");
+  if (entry.described) {
+    fmt::print("  views of   {} x {} pixels{}, {:g} to {:g} degrees, eye at {:g} m, by {} {}\n",
+               profile.camera.columns,
+               profile.camera.rows,
+               profile.ranges ? " with ranges" : "",
+               deg_from_rad(profile.camera.elevation_min_rad),
+               deg_from_rad(profile.camera.elevation_max_rad),
+               profile.eye_height_m,
+               entry.keyspace.engine,
+               entry.keyspace.engine_version);
+  }
   fmt::print("  map cells  {} of {} stored, {}\n",
              entry.stored_cells,
              entry.cells.size(),

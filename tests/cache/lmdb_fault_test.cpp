@@ -234,7 +234,7 @@ class LmdbForeignTest : public LmdbFaultTest {
   std::vector<std::byte> record_of(const Keyspace& keyspace,
                                    const CellIndex& cell,
                                    std::uint8_t codec) {
-    return encode_record(to_bytes(keyspace), cell, codec, encode_view(*views_[0]));
+    return encode_record({digest(keyspace), cell}, codec, encode_view(*views_[0]));
   }
 };
 
@@ -244,11 +244,11 @@ TEST_F(LmdbForeignTest, RecordsOfAnotherKeyOrVersionAreNeverServed) {
   put_raw({2, 0}, record_of(test_keyspace(9), {2, 0}, kViewCodec));  // another map
   put_raw({3, 0}, record_of(keyspace_, {3, 0}, kViewCodec + 1));     // another codec
   std::vector<std::byte> newer = record_of(keyspace_, {4, 0}, kViewCodec);
-  newer[4] = std::byte{2};  // format
+  newer[4] = std::byte{3};  // format
   put_raw({4, 0}, newer);
   put_raw({5, 0}, {std::byte{1}, std::byte{2}});
   put_raw({6, 0},  // a sound record of a payload that is no view
-          encode_record(to_bytes(keyspace_), {6, 0}, kViewCodec, newer));
+          encode_record({digest(keyspace_), {6, 0}}, kViewCodec, newer));
 
   const auto store = LmdbStore::open({folder_.path()});
   ASSERT_TRUE(store.has_value());

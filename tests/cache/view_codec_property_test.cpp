@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ TEST(ViewCodecTest, DecodesWhatItEncoded) {
     const int rows = *rc::gen::inRange(1, 60);
     const ColumnView view =
         testing::random_view(*rc::gen::arbitrary<std::uint64_t>(), columns, rows, 254);
-    const auto decoded = decode_view(encode_view(view), columns, rows);
+    const auto decoded = decode_view(kViewCodec, encode_view(view), {columns, rows, false});
     RC_ASSERT(decoded.has_value());
     RC_ASSERT(*decoded == view);
   }));
@@ -26,9 +27,50 @@ TEST(ViewCodecTest, DecodesWhatItEncoded) {
 
 TEST(ViewCodecTest, CodesTheLargestPanorama) {
   const ColumnView view = testing::random_view(1, 3600, 1024);
-  const auto decoded = decode_view(encode_view(view), 3600, 1024);
+  const auto decoded = decode_view(kViewCodec, encode_view(view), {3600, 1024, false});
   ASSERT_TRUE(decoded.has_value());
   EXPECT_EQ(*decoded, view);
+}
+
+TEST(ViewCodecTest, DecodesPlanesBitByBit) {
+  EXPECT_TRUE(rc::check([] {
+    const int columns = *rc::gen::inRange(1, 200);
+    const int rows = *rc::gen::inRange(1, 60);
+    const ColumnView view =
+        testing::random_view_with_ranges(*rc::gen::arbitrary<std::uint64_t>(), columns, rows);
+    RC_ASSERT(view.has_ranges());
+    const auto decoded = decode_view(kViewCodec, encode_view(view), {columns, rows, true});
+    RC_ASSERT(decoded.has_value());
+    RC_ASSERT(*decoded == view);
+  }));
+}
+
+TEST(ViewCodecTest, DecodesPlanesOfAnySize) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  constexpr float kSmallest = std::numeric_limits<float>::denorm_min();
+  std::vector<std::uint32_t> first_run = {0};
+  std::vector<semview::Run> runs;  // in a test, Run is another
+  std::vector<RunPlane> planes;
+  for (const float a : {1.0F, kLargest, -kLargest, kSmallest, -kSmallest, 0.0F, -1.0F, kLargest}) {
+    runs.push_back({1, 1});
+    planes.push_back({a, a == 0.0F ? kSmallest : -a});
+    first_run.push_back(static_cast<std::uint32_t>(runs.size()));
+  }
+  const auto view = ColumnView::from_runs(1, first_run, runs, planes);
+  ASSERT_TRUE(view.has_value());
+  const auto decoded = decode_view(kViewCodec, encode_view(*view), {8, 1, true});
+  ASSERT_TRUE(decoded.has_value());
+  EXPECT_EQ(*decoded, *view);
+}
+
+TEST(ViewCodecTest, RangesAreAnotherShape) {
+  const std::vector<std::byte> with = encode_view(testing::random_view_with_ranges(2, 120, 20));
+  EXPECT_FALSE(decode_view(kViewCodec, with, {120, 20, false}).has_value());
+  EXPECT_EQ(claimed_shape(kViewCodec, with), (ViewShape{120, 20, true}));
+  const std::vector<std::byte> without = encode_view(testing::random_view(2, 120, 20));
+  EXPECT_FALSE(decode_view(kViewCodec, without, {120, 20, true}).has_value());
+  EXPECT_EQ(claimed_shape(kViewCodec, without), (ViewShape{120, 20, false}));
+  EXPECT_EQ(claimed_shape(1, without), std::nullopt);
 }
 
 TEST(ViewCodecTest, EqualViewsHaveEqualBytes) {
@@ -44,7 +86,7 @@ TEST(ViewCodecTest, OneColumnRepeatedTakesNextToNothing) {
 TEST(ViewCodecTest, AnotherShapeIsRefused) {
   const std::vector<std::byte> bytes = encode_view(testing::random_view(2, 120, 20));
   for (const auto& [columns, rows] : {std::pair(119, 20), {121, 20}, {120, 19}, {1, 1}, {0, 0}}) {
-    const auto decoded = decode_view(bytes, columns, rows);
+    const auto decoded = decode_view(kViewCodec, bytes, {columns, rows, false});
     ASSERT_FALSE(decoded.has_value());
     EXPECT_EQ(decoded.error().code, ErrorCode::kDataLoss);
   }
@@ -53,16 +95,17 @@ TEST(ViewCodecTest, AnotherShapeIsRefused) {
 // Damage gives an error or a sound view of the right shape, never anything else. (Which of the two
 // is the record's checksum's business.)
 TEST(ViewCodecTest, DamagedBytesNeverDoHarm) {
-  const std::vector<std::byte> sound = encode_view(testing::random_view(3, 120, 20));
+  const std::vector<std::byte> labels = encode_view(testing::random_view(3, 120, 20));
+  const std::vector<std::byte> ranges = encode_view(testing::random_view_with_ranges(3, 120, 20));
   Rng rng(5, "damage");
   for (int i = 0; i < 3000; ++i) {
-    std::vector<std::byte> bytes = sound;
+    std::vector<std::byte> bytes = i % 2 == 0 ? labels : ranges;
     const std::uint64_t flips = 1 + rng.below(4);
     for (std::uint64_t k = 0; k < flips; ++k) {
       bytes[rng.below(bytes.size())] ^= static_cast<std::byte>(1U << rng.below(8));
     }
     if (rng.uniform() < 0.2) bytes.resize(rng.below(bytes.size()));
-    if (const auto decoded = decode_view(bytes, 120, 20)) {
+    if (const auto decoded = decode_view(kViewCodec, bytes, {120, 20, i % 2 == 1})) {
       EXPECT_EQ(decoded->columns(), 120);
       EXPECT_EQ(decoded->rows(), 20);
     }
@@ -74,7 +117,7 @@ TEST(ViewCodecTest, RandomBytesAreNoView) {
   for (int i = 0; i < 500; ++i) {
     std::vector<std::byte> bytes(rng.below(200));
     for (std::byte& byte : bytes) byte = static_cast<std::byte>(rng.below(256));
-    EXPECT_FALSE(decode_view(bytes, 120, 20).has_value());
+    EXPECT_FALSE(decode_view(kViewCodec, bytes, {120, 20, false}).has_value());
   }
 }
 

@@ -28,7 +28,7 @@ class UnusableRecordsTest : public ::testing::Test {
     std::vector<cache::EncodedView> damaged;
     EXPECT_TRUE((*store)->for_each_record([&](auto, auto record) {
       const auto sound = cache::decode_record(record);
-      damaged.push_back({sound->cell, {record.begin(), record.end()}});
+      damaged.push_back({sound->key.cell, {record.begin(), record.end()}});
       damaged.back().record.back() ^= std::byte{0x10};
     }));
     EXPECT_TRUE((*store)->put_encoded(keyspace, damaged));

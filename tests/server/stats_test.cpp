@@ -40,7 +40,7 @@ TEST_F(StatsTest, DamagedRecordsAndTheTiersOfTheCacheAreCounted) {
   const CellIndex cell = site_->cells().free_cells().front();
   const auto view = site_->engine_views().views(std::vector{cell})->views.front();
   cache::EncodedView damaged =
-      cache::LmdbStore::encode(cache::to_bytes(site_->keyspace()), cell, *view);
+      cache::LmdbStore::encode(cache::digest(site_->keyspace()), cell, *view);
   damaged.record.back() ^= std::byte{0x10};
   ASSERT_TRUE(site_->tiers().store->put_encoded(site_->keyspace(), std::vector{damaged}));
 

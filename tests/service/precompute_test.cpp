@@ -146,9 +146,11 @@ TEST_F(PrecomputeTest, TheEstimateStoresNothing) {
   const std::uint64_t empty_bytes = site->tiers().store->file_bytes();
   run(*site, *plan);
   const std::uint64_t grown = site->tiers().store->file_bytes() - empty_bytes;
-  // Inner pages and pages not yet full: within a factor of two for a map this small.
-  EXPECT_LT(before->bytes, 2 * grown);
-  EXPECT_GT(2 * before->bytes, grown);
+  // Inner pages and pages not yet full: within a factor of two and a few pages for a map this
+  // small.
+  constexpr std::uint64_t kFewPages = 4 * 4096;
+  EXPECT_LT(before->bytes, 2 * grown + kFewPages);
+  EXPECT_GT(2 * before->bytes + kFewPages, grown);
   const auto after = estimate_precompute(*site, *plan);
   ASSERT_TRUE(after.has_value());
   EXPECT_EQ(after->found, plan->cells.size());

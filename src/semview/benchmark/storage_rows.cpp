@@ -31,7 +31,8 @@ Status stored_bytes(const Circumstances& in, Row& row) {
   double ours = 0.0, other = 0.0;
   for (const ColumnView& view : views) {
     const std::vector<std::byte> coded = encode_view(view);
-    const auto decoded = decode_view(coded, view.columns(), view.rows());
+    const auto decoded =
+        decode_view(kViewCodec, coded, {view.columns(), view.rows(), view.has_ranges()});
     if (!decoded || *decoded != view) {
       return fail(ErrorCode::kInternal, "results differ: a view and what was stored of it");
     }

@@ -22,6 +22,11 @@ class ByteWriter {
       bytes_.push_back(static_cast<std::byte>((bits >> (8 * i)) & 0xff));
     }
   }
+  /// 7 bits a byte from the lowest, the top bit set on all but the last byte.
+  void add_varint(std::uint32_t value) {
+    for (; value >= 0x80; value >>= 7U) add(static_cast<std::uint8_t>(0x80U | (value & 0x7fU)));
+    add(static_cast<std::uint8_t>(value));
+  }
   /// -0.0 as 0.0, so that equal keys have equal bytes.
   void add_f64(double value) { add(std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value)); }
   void add_bytes(std::span<const std::byte> bytes) {
@@ -49,6 +54,16 @@ class ByteReader {
       bits = static_cast<Bits>(bits | static_cast<Bits>(static_cast<Bits>(bytes[i]) << (8 * i)));
     }
     return static_cast<Integer>(bits);
+  }
+  std::uint32_t take_varint() {
+    std::uint32_t value = 0;
+    for (unsigned shift = 0; shift < 32; shift += 7) {
+      const auto part = take<std::uint8_t>();
+      value |= (part & 0x7fU) << shift;
+      if ((part & 0x80U) == 0) return value;
+    }
+    failed_ = true;
+    return 0;
   }
   double take_f64() { return std::bit_cast<double>(take<std::uint64_t>()); }
   std::span<const std::byte> take_bytes(std::size_t count) {

@@ -12,14 +12,6 @@ namespace {
 constexpr std::uint16_t kDescriptionFormat = 1;
 constexpr std::size_t kMaxDescribedCells = 100'000'000;  // a square kilometre
 
-void add_big_endian(std::byte*& out, std::int32_t value) {
-  // The sign bit flipped: negative cells come first in byte order.
-  const std::uint32_t bits = static_cast<std::uint32_t>(value) ^ 0x80000000U;
-  for (unsigned shift = 32; shift > 0; shift -= 8) {
-    *out++ = static_cast<std::byte>((bits >> (shift - 8)) & 0xffU);
-  }
-}
-
 /// Cells row by row as runs along x.
 struct CellRun {
   CellIndex first;
@@ -44,15 +36,6 @@ std::vector<CellRun> runs_of(std::span<const CellIndex> cells) {
 
 }  // namespace
 
-RecordKey record_key(const Fingerprint& keyspace, const CellIndex& cell) {
-  RecordKey key{};
-  const auto name = std::as_bytes(std::span(keyspace.bytes));
-  std::byte* out = std::ranges::copy(name, key.data()).out;
-  add_big_endian(out, cell.iy);
-  add_big_endian(out, cell.ix);
-  return key;
-}
-
 RecordState inspect(std::span<const std::byte> key,
                     std::span<const std::byte> bytes,
                     std::optional<Record>& record) {
@@ -61,10 +44,8 @@ RecordState inspect(std::span<const std::byte> key,
     return decoded.error().code == ErrorCode::kUnimplemented ? RecordState::kUnknown
                                                              : RecordState::kDamaged;
   }
-  if (decoded->codec != kViewCodec) return RecordState::kUnknown;
-  if (!std::ranges::equal(record_key(digest(decoded->keyspace), decoded->cell), key)) {
-    return RecordState::kForeign;
-  }
+  if (!knows_view_codec(decoded->codec)) return RecordState::kUnknown;
+  if (!std::ranges::equal(record_key(decoded->key), key)) return RecordState::kForeign;
   record = *std::move(decoded);
   return RecordState::kSound;
 }
@@ -101,8 +82,10 @@ Result<KeyspaceEntry> read_description(std::span<const std::byte> bytes) {
     return damaged;
   }
   KeyspaceEntry entry;
+  entry.described = true;
   const auto key_length = in.take<std::uint16_t>();
   SEMVIEW_TRY(entry.keyspace, keyspace_from_bytes(in.take_bytes(key_length)));
+  entry.name = digest(entry.keyspace);
   entry.map_id = in.take_string(in.take<std::uint8_t>());
   const auto runs = in.take<std::uint32_t>();
   for (std::uint32_t i = 0; i < runs; ++i) {

@@ -31,14 +31,36 @@ Status for_each(const detail::Environment& environment, MDB_dbi table, Visit&& v
   return {};
 }
 
+using Descriptions = std::map<Fingerprint, KeyspaceEntry>;
+
+/// The sound descriptions of a directory, by the digests of their keyspaces.
+Result<Descriptions> read_descriptions(const detail::Environment& environment) {
+  Descriptions descriptions;
+  SEMVIEW_TRY_STATUS(
+      for_each(environment, environment.keyspaces(), [&](auto, auto value) -> Status {
+        if (Result<KeyspaceEntry> entry = detail::read_description(value)) {
+          descriptions.emplace(entry->name, *std::move(entry));
+        }
+        return {};
+      }));
+  return descriptions;
+}
+
 /// `inspect`, and the payload decoded too.
-RecordState judge(std::span<const std::byte> key, std::span<const std::byte> bytes) {
+RecordState judge(const Descriptions& descriptions,
+                  std::span<const std::byte> key,
+                  std::span<const std::byte> bytes) {
   std::optional<Record> record;
   const RecordState state = detail::inspect(key, bytes, record);
   if (state != RecordState::kSound) return state;
-  const PanoramaCamera& camera = record->keyspace.profile.camera;
-  return decode_view(record->payload, camera.columns, camera.rows) ? RecordState::kSound
-                                                                   : RecordState::kDamaged;
+  const auto found = descriptions.find(record->key.keyspace);
+  const std::optional<ViewShape> shape = found != descriptions.end()
+                                             ? shape_of(found->second.keyspace.profile)
+                                             : claimed_shape(record->codec, record->payload);
+  // Without description and claim there is only the checksum, which was right.
+  if (!shape && record->codec != kViewCodec) return state;
+  return shape && decode_view(record->codec, record->payload, *shape) ? RecordState::kSound
+                                                                      : RecordState::kDamaged;
 }
 
 void count(LmdbStore::VerifyReport& report, RecordState state) {
@@ -63,8 +85,9 @@ Status rewrite(const detail::Environment& source,
                detail::Environment& target,
                LmdbStore::VerifyReport& report) {
   detail::BatchWriter writer(target, MDB_APPEND);
+  SEMVIEW_TRY(const Descriptions descriptions, read_descriptions(source));
   SEMVIEW_TRY_STATUS(for_each(source, source.records(), [&](auto key, auto value) -> Status {
-    const RecordState state = judge(key, value);
+    const RecordState state = judge(descriptions, key, value);
     count(report, state);
     if (state != RecordState::kSound) return {};
     return writer.add(target.records(), key, value);
@@ -91,31 +114,25 @@ Status LmdbStore::for_each_record(
 
 Result<LmdbStore::VerifyReport> LmdbStore::verify() const {
   VerifyReport report;
+  SEMVIEW_TRY(const Descriptions descriptions, read_descriptions(state_->environment));
   SEMVIEW_TRY_STATUS(
       for_each_record([&](std::span<const std::byte> key, std::span<const std::byte> record) {
-        count(report, judge(key, record));
+        count(report, judge(descriptions, key, record));
       }));
   return report;
 }
 
 Result<std::vector<KeyspaceEntry>> LmdbStore::keyspaces() const {
   const detail::Environment& environment = state_->environment;
-  std::map<Fingerprint, KeyspaceEntry> entries;
-  SEMVIEW_TRY_STATUS(
-      for_each(environment, environment.keyspaces(), [&](auto, auto value) -> Status {
-        if (const Result<KeyspaceEntry> entry = detail::read_description(value)) {
-          entries.emplace(digest(entry->keyspace), *entry);
-        }
-        return {};
-      }));
+  SEMVIEW_TRY(Descriptions entries, read_descriptions(environment));
   SEMVIEW_TRY_STATUS(
       for_each(environment, environment.records(), [&](auto key, auto value) -> Status {
         std::optional<Record> record;
         if (detail::inspect(key, value, record) != RecordState::kSound) return {};
-        KeyspaceEntry& entry = entries[digest(record->keyspace)];
-        entry.keyspace = record->keyspace;  // a keyspace whose description is lost is still listed
+        KeyspaceEntry& entry = entries[record->key.keyspace];
+        entry.name = record->key.keyspace;  // one whose description is lost is still listed
         ++entry.stored;
-        if (std::ranges::binary_search(entry.cells, record->cell)) ++entry.stored_cells;
+        if (std::ranges::binary_search(entry.cells, record->key.cell)) ++entry.stored_cells;
         entry.record_bytes += value.size();
         entry.payload_bytes += record->payload.size();
         return {};

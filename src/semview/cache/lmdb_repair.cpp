@@ -81,8 +81,7 @@ Result<std::uint64_t> save_values(std::span<const std::byte> file,
   const auto take_record = [&](std::span<const std::byte> bytes) -> Result<bool> {
     const Result<Record> record = decode_record(bytes);
     if (!record) return false;
-    const RecordKey key = record_key(digest(record->keyspace), record->cell);
-    SEMVIEW_TRY_STATUS(writer.add(target.records(), key, bytes));
+    SEMVIEW_TRY_STATUS(writer.add(target.records(), record_key(record->key), bytes));
     return true;
   };
   const auto take_description = [&](std::span<const std::byte> bytes) -> Result<bool> {

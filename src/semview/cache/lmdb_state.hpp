@@ -58,10 +58,6 @@ struct LmdbStore::State {
 
 namespace detail {
 
-/// Digest and cell; keys in byte order are cells row by row.
-using RecordKey = std::array<std::byte, 24>;
-RecordKey record_key(const Fingerprint& keyspace, const CellIndex& cell);
-
 /// Checks all but the payload's content. `record` is set when the state is `kSound`.
 RecordState inspect(std::span<const std::byte> key,
                     std::span<const std::byte> bytes,

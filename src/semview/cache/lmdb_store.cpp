@@ -22,9 +22,26 @@ using detail::Transaction;
 std::uint64_t room_for(std::span<const EncodedView> views, std::uint64_t page_bytes) {
   std::uint64_t bytes = 16 * page_bytes;
   for (const EncodedView& view : views) {
-    bytes += 2 * (view.record.size() + sizeof(detail::RecordKey) + 16);
+    bytes += 2 * (view.record.size() + sizeof(RecordKey) + 16);
   }
   return bytes;
+}
+
+/// Records name their keyspace by its digest only; so whatever is stored, the directory must be
+/// able to tell what the digest stands for. Leaves a fuller description alone.
+/// @returns LMDB's return code.
+int name_keyspace(const detail::Environment& environment,
+                  const Transaction& transaction,
+                  const Fingerprint& name,
+                  const Keyspace& keyspace) {
+  const auto name_bytes = std::as_bytes(std::span(name.bytes));
+  MDB_val key = detail::value_of(name_bytes);
+  MDB_val there{};
+  const int code = mdb_get(transaction.get(), environment.keyspaces(), &key, &there);
+  if (code != MDB_NOTFOUND) return code;
+  const std::vector<std::byte> text = detail::describe(keyspace, {}, {});
+  MDB_val value = detail::value_of(text);
+  return mdb_put(transaction.get(), environment.keyspaces(), &key, &value, 0);
 }
 
 }  // namespace
@@ -35,7 +52,7 @@ LmdbStore::~LmdbStore() = default;
 std::vector<SharedView> LmdbStore::get(const Keyspace& keyspace, std::span<const CellIndex> cells) {
   std::vector<SharedView> views(cells.size());
   const Fingerprint name = digest(keyspace);
-  const PanoramaCamera& camera = keyspace.profile.camera;
+  const ViewShape shape = shape_of(keyspace.profile);
   Result<Transaction> transaction = Transaction::begin(state_->environment.get(), MDB_RDONLY);
   if (!transaction) {
     state_->misses += cells.size();
@@ -47,20 +64,15 @@ std::vector<SharedView> LmdbStore::get(const Keyspace& keyspace, std::span<const
     return views;
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const detail::RecordKey key = detail::record_key(name, cells[i]);
+    const RecordKey key = record_key({name, cells[i]});
     MDB_val key_value = detail::value_of(key);
     MDB_val value{};
     const int code = mdb_get(transaction->get(), state_->environment.records(), &key_value, &value);
     std::optional<Record> record;
     RecordState found = RecordState::kDamaged;
-    if (code == 0) {
-      found = detail::inspect(key, detail::bytes_of(value), record);
-      if (found == RecordState::kSound && record->keyspace != keyspace) {
-        found = RecordState::kForeign;
-      }
-    }
+    if (code == 0) found = detail::inspect(key, detail::bytes_of(value), record);
     if (found == RecordState::kSound) {
-      if (Result<ColumnView> view = decode_view(record->payload, camera.columns, camera.rows)) {
+      if (Result<ColumnView> view = decode_view(record->codec, record->payload, shape)) {
         views[i] = std::make_shared<const ColumnView>(*std::move(view));
         ++state_->hits;
         continue;
@@ -79,7 +91,7 @@ std::vector<CellIndex> LmdbStore::missing(const Keyspace& keyspace,
   std::vector<CellIndex> missing;
   const Result<Transaction> transaction = Transaction::begin(state_->environment.get(), MDB_RDONLY);
   for (const CellIndex& cell : cells) {
-    const detail::RecordKey key = detail::record_key(name, cell);
+    const RecordKey key = record_key({name, cell});
     MDB_val key_value = detail::value_of(key);
     MDB_val value{};
     std::optional<Record> record;
@@ -96,10 +108,10 @@ std::vector<CellIndex> LmdbStore::missing(const Keyspace& keyspace,
   return missing;
 }
 
-EncodedView LmdbStore::encode(std::span<const std::byte> keyspace_bytes,
+EncodedView LmdbStore::encode(const Fingerprint& keyspace,
                               const CellIndex& cell,
                               const ColumnView& view) {
-  return {cell, encode_record(keyspace_bytes, cell, kViewCodec, encode_view(view))};
+  return {cell, encode_record({keyspace, cell}, kViewCodec, encode_view(view))};
 }
 
 void LmdbStore::put(const Keyspace& keyspace,
@@ -110,11 +122,11 @@ void LmdbStore::put(const Keyspace& keyspace,
     state_->refused += cells.size();
     return;
   }
-  const std::vector<std::byte> keyspace_bytes = to_bytes(keyspace);
+  const Fingerprint name = digest(keyspace);
   std::vector<EncodedView> encoded;
   encoded.reserve(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    encoded.push_back(encode(keyspace_bytes, cells[i], *views[i]));
+    encoded.push_back(encode(name, cells[i], *views[i]));
   }
   // What could not be stored is counted and logged; the caller has its views.
   static_cast<void>(put_encoded(keyspace, encoded));
@@ -148,8 +160,11 @@ Status LmdbStore::write(const Keyspace& keyspace, std::span<const EncodedView> v
     return stop_storing({ErrorCode::kResourceExhausted, fmt::format("limit of {} bytes", limit)});
   }
   const Fingerprint name = digest(keyspace);
+  if (const int code = name_keyspace(environment, transaction, name, keyspace); code != 0) {
+    return stop_storing(detail::lmdb_error(code, "describe a map"));
+  }
   for (const EncodedView& view : views) {
-    const detail::RecordKey key = detail::record_key(name, view.cell);
+    const RecordKey key = record_key({name, view.cell});
     MDB_val key_value = detail::value_of(key);
     MDB_val there{};
     // Another process may have stored the same bytes meanwhile.

@@ -31,6 +31,9 @@ struct LmdbConfig {
 
 /// What a directory knows about the views of one keyspace.
 struct KeyspaceEntry {
+  Fingerprint name;  ///< the keyspace's digest
+  bool described =
+      false;  ///< else the directory has lost whose views these are: only `name` is known
   Keyspace keyspace;
   std::string map_id;               ///< for people; the fingerprint identifies the map
   std::vector<CellIndex> cells;     ///< whose views the whole map needs; empty: not known
@@ -55,7 +58,7 @@ struct EncodedView {
   std::vector<std::byte> record;
 };
 
-/// The disk tier. Records carry their full key and a checksum; one that is damaged, foreign or of
+/// The disk tier. Records carry their key and a checksum; one that is damaged, foreign or of
 /// an unknown version is counted, not served, and replaced by the next `put` of its cell.
 ///
 /// Once the disk, the map or the limit is full, or a write fails, storing stops for the life of
@@ -89,7 +92,7 @@ class LmdbStore final : public ViewStore {
   std::vector<CellIndex> missing(const Keyspace& keyspace, std::span<const CellIndex> cells);
 
   /// `put` in two steps, so that the first can run on several threads.
-  static EncodedView encode(std::span<const std::byte> keyspace_bytes,
+  static EncodedView encode(const Fingerprint& keyspace,
                             const CellIndex& cell,
                             const ColumnView& view);
   /// Stores in one transaction, all or nothing.

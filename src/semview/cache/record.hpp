@@ -15,19 +15,22 @@ namespace semview::cache {
 
 inline constexpr std::array kRecordMagic = {
     std::byte{'S'}, std::byte{'V'}, std::byte{'W'}, std::byte{'R'}};
-inline constexpr std::uint16_t kRecordFormat = 1;
+/// The format that is written; `decode_record` reads it and format 1.
+inline constexpr std::uint16_t kRecordFormat = 2;
+
+/// Digest and cell, the key under which LMDB holds a record; keys in byte order are cells row by
+/// row.
+using RecordKey = std::array<std::byte, 24>;
+RecordKey record_key(const ViewKey& key);
 
 /// Whose view a record holds, and its payload (a part of the record's bytes).
 struct Record {
-  Keyspace keyspace;
-  CellIndex cell;
+  ViewKey key;
   std::uint8_t codec = 0;
   std::span<const std::byte> payload;
 };
 
-/// `keyspace_bytes` is `to_bytes(keyspace)`, made once for many records.
-std::vector<std::byte> encode_record(std::span<const std::byte> keyspace_bytes,
-                                     const CellIndex& cell,
+std::vector<std::byte> encode_record(const ViewKey& key,
                                      std::uint8_t codec,
                                      std::span<const std::byte> payload);
 

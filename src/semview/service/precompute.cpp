@@ -74,13 +74,13 @@ Result<cache::LmdbStore*> store_of(const Site& site) {
 
 /// Casts cells with the engine, in parallel, and makes their records, in parallel too.
 Result<std::vector<cache::EncodedView>> cast(const Site& site,
-                                             std::span<const std::byte> keyspace_bytes,
+                                             const Fingerprint& keyspace,
                                              std::span<const CellIndex> cells) {
   SEMVIEW_TRY(const ViewBatch batch, site.engine_views().views(cells));
   std::vector<cache::EncodedView> encoded(cells.size());
   site.pool().parallel_for(cells.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      encoded[i] = cache::LmdbStore::encode(keyspace_bytes, cells[i], *batch.views[i]);
+      encoded[i] = cache::LmdbStore::encode(keyspace, cells[i], *batch.views[i]);
     }
   });
   return encoded;
@@ -131,7 +131,7 @@ Result<PrecomputeResult> run_precompute(
     const std::function<void(const PrecomputeProgress&)>& progress,
     const Clock& clock) {
   SEMVIEW_TRY(cache::LmdbStore* const store, store_of(site));
-  const std::vector<std::byte> keyspace_bytes = cache::to_bytes(site.keyspace());
+  const Fingerprint keyspace = cache::digest(site.keyspace());
   const std::vector<CellIndex> missing = store->missing(site.keyspace(), plan.cells);
   PrecomputeResult result;
   PrecomputeProgress& now = result.progress;
@@ -147,7 +147,7 @@ Result<PrecomputeResult> run_precompute(
       return result;
     }
     const auto cells = std::span(missing).subspan(begin, std::min(chunk, missing.size() - begin));
-    SEMVIEW_TRY(const std::vector<cache::EncodedView> encoded, cast(site, keyspace_bytes, cells));
+    SEMVIEW_TRY(const std::vector<cache::EncodedView> encoded, cast(site, keyspace, cells));
     SEMVIEW_TRY_STATUS(store->put_encoded(site.keyspace(), encoded));
     for (const cache::EncodedView& view : encoded) now.bytes += view.record.size();
     now.cast += cells.size();
@@ -175,7 +175,7 @@ Result<PrecomputeEstimate> estimate_precompute(const Site& site,
   for (std::size_t i = 0; i < missing.size(); i += step) sample.push_back(missing[i]);
   const TimePoint start = clock.now();
   SEMVIEW_TRY(const std::vector<cache::EncodedView> encoded,
-              cast(site, cache::to_bytes(site.keyspace()), sample));
+              cast(site, cache::digest(site.keyspace()), sample));
   const double elapsed_s = seconds_between(start, clock.now());
   double bytes = 0.0;
   for (const cache::EncodedView& view : encoded) {

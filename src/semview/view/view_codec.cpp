@@ -1,239 +1,92 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/view/view_codec.hpp"
 
-#include <memory>
-#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
-#include <zstd.h>
 
-#include "semview/core/check.hpp"
+#include "semview/view/range_coder.hpp"
+#include "semview/view/view_codec_1.hpp"
+#include "semview/view/view_model.hpp"
 
 namespace semview {
 namespace {
 
-// What a column is, in the stream of columns; docs/formats/cache_record.md#payload.
-constexpr std::uint32_t kSameColumn = 0;  // runs as in the column before
-constexpr std::uint32_t kMovedEnds = 1;   // labels as in the column before, other ends
-constexpr std::uint32_t kNewRuns = 1;     // + the number of runs: all of them follow
+constexpr unsigned kColumnsBits = 12;
+constexpr unsigned kRowsBits = 11;
+static_assert(kMaxPanoramaColumns < 1 << kColumnsBits && kMaxPanoramaRows < 1 << kRowsBits);
 
-// Higher levels save a hundredth of the bytes for several times the time: the table in
-// docs/formats/cache_record.md.
-constexpr int kZstdLevel = 6;
-
-void add_varint(std::vector<std::byte>& out, std::uint32_t value) {
-  for (; value >= 0x80; value >>= 7U) out.push_back(static_cast<std::byte>(0x80 | (value & 0x7f)));
-  out.push_back(static_cast<std::byte>(value));
+/// Writes the shape that a view has, or reads it.
+template <typename Coder>
+ViewShape code_shape(Coder& coder, const ViewShape& shape) {
+  ViewShape coded;
+  coded.columns =
+      static_cast<int>(coder.code_plain(static_cast<std::uint32_t>(shape.columns), kColumnsBits));
+  coded.rows =
+      static_cast<int>(coder.code_plain(static_cast<std::uint32_t>(shape.rows), kRowsBits));
+  coded.ranges = coder.code_plain(shape.ranges ? 1 : 0, 1) != 0;
+  return coded;
 }
 
-constexpr std::uint32_t zigzag(int value) {
-  return value < 0 ? 2 * static_cast<std::uint32_t>(-value) - 1
-                   : 2 * static_cast<std::uint32_t>(value);
-}
-constexpr int unzigzag(std::uint32_t value) {
-  const int half = static_cast<int>(value / 2);
-  return value % 2 == 0 ? half : -half - 1;
-}
-
-bool same_labels(std::span<const Run> a, std::span<const Run> b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i].label != b[i].label) return false;
-  }
-  return true;
-}
-
-/// The three streams of a view before zstd.
-struct Streams {
-  std::vector<std::byte> columns;
-  std::vector<std::byte> runs;
-  std::vector<std::byte> moves;
-};
-
-Streams split(const ColumnView& view) {
-  Streams streams;
-  std::span<const Run> before;
-  for (int c = 0; c < view.columns(); ++c) {
-    const std::span<const Run> column = view.column(c);
-    if (!same_labels(column, before)) {
-      add_varint(streams.columns, kNewRuns + static_cast<std::uint32_t>(column.size()));
-      std::uint32_t start = 0;
-      for (const Run& run : column) {
-        streams.runs.push_back(static_cast<std::byte>(run.label));
-        // The last run ends at the last row.
-        if (&run != &column.back()) add_varint(streams.runs, run.end_row - start);
-        start = run.end_row;
-      }
-    } else if (std::equal(column.begin(), column.end(), before.begin())) {
-      add_varint(streams.columns, kSameColumn);
-    } else {
-      add_varint(streams.columns, kMovedEnds);
-      for (std::size_t i = 0; i + 1 < column.size(); ++i) {
-        add_varint(streams.moves, zigzag(column[i].end_row - before[i].end_row));
-      }
+Result<ColumnView> decode_view_2(std::span<const std::byte> bytes, const ViewShape& shape) {
+  detail::RangeDecoder decoder(bytes);
+  if (code_shape(decoder, {}) != shape) return fail(ErrorCode::kDataLoss, "view: another shape");
+  detail::ColumnWalk walk(decoder, shape.columns, shape.rows, shape.ranges);
+  std::vector<std::uint32_t> first_run;
+  std::vector<Run> runs;
+  std::vector<RunPlane> planes;
+  first_run.reserve(static_cast<std::size_t>(shape.columns) + 1);
+  runs.reserve(static_cast<std::size_t>(shape.columns) * 4);
+  first_run.push_back(0);
+  for (int c = 0; c < shape.columns; ++c) {
+    if (!walk.code_column({}, {})) {
+      return fail(ErrorCode::kDataLoss, fmt::format("view: column {} is damaged", c));
     }
-    before = column;
-  }
-  return streams;
-}
-
-/// Takes bytes from the front; past the end everything is 0 and `failed()`.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-  std::uint32_t byte() {
-    if (bytes_.empty()) {
-      failed_ = true;
-      return 0;
+    for (const detail::Edge& edge : walk.edges()) {
+      runs.push_back({static_cast<std::uint16_t>(edge.row), edge.label});
     }
-    const auto value = static_cast<std::uint32_t>(bytes_.front());
-    bytes_ = bytes_.subspan(1);
-    return value;
+    for (const detail::PlaneState& state : walk.planes()) planes.push_back(state.plane);
+    first_run.push_back(static_cast<std::uint32_t>(runs.size()));
   }
-  std::uint32_t varint() {
-    std::uint32_t value = 0;
-    for (unsigned shift = 0; shift < 28; shift += 7) {
-      const std::uint32_t part = byte();
-      value |= (part & 0x7fU) << shift;
-      if ((part & 0x80U) == 0) return value;
-    }
-    failed_ = true;
-    return 0;
-  }
-  Reader take(std::size_t count) {
-    if (count > bytes_.size()) {
-      failed_ = true;
-      return Reader({});
-    }
-    const Reader part(bytes_.first(count));
-    bytes_ = bytes_.subspan(count);
-    return part;
-  }
-  bool failed() const { return failed_; }
-  bool finished() const { return bytes_.empty() && !failed_; }
-
- private:
-  std::span<const std::byte> bytes_;
-  bool failed_ = false;
-};
-
-/// Puts the streams together again, column by column; all that a column says is checked here or by
-/// `ColumnView::from_runs`.
-class Joiner {
- public:
-  Joiner(int columns, int rows) : rows_(rows) {
-    first_run_.reserve(static_cast<std::size_t>(columns) + 1);
-    first_run_.push_back(0);
-  }
-
-  bool add_column(Reader& columns, Reader& runs, Reader& moves) {
-    const std::uint32_t kind = columns.varint();
-    const std::size_t end = runs_.size();
-    const std::size_t start = first_run_.size() < 2 ? end : first_run_[first_run_.size() - 2];
-    if (kind == kSameColumn || kind == kMovedEnds) {
-      if (start == end) return false;
-      for (std::size_t i = start; i < end; ++i) {
-        Run run = runs_[i];
-        if (kind == kMovedEnds && i + 1 < end) {
-          run.end_row = static_cast<std::uint16_t>(run.end_row + unzigzag(moves.varint()));
-        }
-        runs_.push_back(run);
-      }
-    } else {
-      const std::uint32_t count = kind - kNewRuns;
-      if (count > static_cast<std::uint32_t>(rows_)) return false;
-      std::uint32_t row = 0;
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const auto label = static_cast<ClassId>(runs.byte());
-        row = i + 1 < count ? row + runs.varint() : static_cast<std::uint32_t>(rows_);
-        if (row > static_cast<std::uint32_t>(rows_)) return false;
-        runs_.push_back({static_cast<std::uint16_t>(row), label});
-      }
-    }
-    first_run_.push_back(static_cast<std::uint32_t>(runs_.size()));
-    return !columns.failed() && !runs.failed() && !moves.failed();
-  }
-
-  Result<ColumnView> finish() && {
-    runs_.shrink_to_fit();
-    return ColumnView::from_runs(rows_, std::move(first_run_), std::move(runs_));
-  }
-
- private:
-  int rows_;
-  std::vector<std::uint32_t> first_run_;
-  std::vector<Run> runs_;
-};
-
-struct FreeCompressor {
-  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
-};
-struct FreeDecompressor {
-  void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
-};
-
-std::vector<std::byte> compress(std::span<const std::byte> body) {
-  thread_local const std::unique_ptr<ZSTD_CCtx, FreeCompressor> context(ZSTD_createCCtx());
-  SEMVIEW_CHECK(context != nullptr);
-  std::vector<std::byte> bytes(ZSTD_compressBound(body.size()));
-  const std::size_t size = ZSTD_compressCCtx(
-      context.get(), bytes.data(), bytes.size(), body.data(), body.size(), kZstdLevel);
-  SEMVIEW_CHECK(ZSTD_isError(size) == 0U);
-  bytes.resize(size);
-  bytes.shrink_to_fit();
-  return bytes;
-}
-
-/// `nullopt` unless `bytes` is one frame of at most `limit` bytes of content.
-std::optional<std::vector<std::byte>> decompress(std::span<const std::byte> bytes,
-                                                 std::size_t limit) {
-  thread_local const std::unique_ptr<ZSTD_DCtx, FreeDecompressor> context(ZSTD_createDCtx());
-  SEMVIEW_CHECK(context != nullptr);
-  const unsigned long long content = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  // The two error values are larger than any limit.
-  if (content > limit) return std::nullopt;
-  std::vector<std::byte> body(static_cast<std::size_t>(content));
-  const std::size_t size =
-      ZSTD_decompressDCtx(context.get(), body.data(), body.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(size) != 0U || size != body.size()) return std::nullopt;
-  return body;
+  if (!decoder.finished()) return fail(ErrorCode::kDataLoss, "view: bytes behind the last column");
+  return ColumnView::from_runs(
+      shape.rows, std::move(first_run), std::move(runs), std::move(planes));
 }
 
 }  // namespace
 
 std::vector<std::byte> encode_view(const ColumnView& view) {
-  const Streams streams = split(view);
-  std::vector<std::byte> body;
-  body.reserve(streams.columns.size() + streams.runs.size() + streams.moves.size() + 8);
-  add_varint(body, static_cast<std::uint32_t>(streams.columns.size()));
-  add_varint(body, static_cast<std::uint32_t>(streams.runs.size()));
-  for (const auto* stream : {&streams.columns, &streams.runs, &streams.moves}) {
-    body.insert(body.end(), stream->begin(), stream->end());
+  detail::RangeEncoder encoder;
+  encoder.reserve(view.runs().size() / 2 + 16);
+  code_shape(encoder, {view.columns(), view.rows(), view.has_ranges()});
+  detail::ColumnWalk walk(encoder, view.columns(), view.rows(), view.has_ranges());
+  for (int c = 0; c < view.columns(); ++c) {
+    const std::span<const Run> runs = view.column(c);
+    std::span<const RunPlane> planes = view.planes();
+    if (view.has_ranges()) {
+      planes = planes.subspan(view.first_run()[static_cast<std::size_t>(c)], runs.size());
+    }
+    walk.code_column(runs, planes);
   }
-  return compress(body);
+  return std::move(encoder).finish();
 }
 
-Result<ColumnView> decode_view(std::span<const std::byte> bytes, int columns, int rows) {
-  // No run takes more than 6 bytes: label, length, or a move; no column's kind more than 4.
-  const auto limit = static_cast<std::size_t>(columns) * (static_cast<std::size_t>(rows) * 6 + 4);
-  const std::optional<std::vector<std::byte>> body = decompress(bytes, limit + 8);
-  if (!body) return fail(ErrorCode::kDataLoss, "view: payload is not a zstd frame of its size");
-  Reader moves(*body);
-  const std::uint32_t columns_size = moves.varint();
-  const std::uint32_t runs_size = moves.varint();
-  Reader column_kinds = moves.take(columns_size);
-  Reader runs = moves.take(runs_size);
-  Joiner joiner(columns, rows);
-  for (int c = 0; c < columns; ++c) {
-    if (moves.failed() || !joiner.add_column(column_kinds, runs, moves)) {
-      return fail(ErrorCode::kDataLoss, fmt::format("view: column {} is damaged", c));
-    }
-  }
-  if (!column_kinds.finished() || !runs.finished() || !moves.finished()) {
-    return fail(ErrorCode::kDataLoss, "view: bytes behind the last column");
-  }
-  return std::move(joiner).finish();
+std::optional<ViewShape> claimed_shape(std::uint8_t codec, std::span<const std::byte> bytes) {
+  if (codec != kViewCodec) return std::nullopt;
+  detail::RangeDecoder decoder(bytes);
+  const ViewShape shape = code_shape(decoder, {});
+  const bool possible = shape.columns > 0 && shape.columns <= kMaxPanoramaColumns &&
+                        shape.rows > 0 && shape.rows <= kMaxPanoramaRows;
+  return possible ? std::optional(shape) : std::nullopt;
+}
+
+Result<ColumnView> decode_view(std::uint8_t codec,
+                               std::span<const std::byte> bytes,
+                               const ViewShape& shape) {
+  if (codec == kViewCodec) return decode_view_2(bytes, shape);
+  if (codec == 1 && !shape.ranges) return detail::decode_view_1(bytes, shape.columns, shape.rows);
+  return fail(ErrorCode::kUnimplemented,
+              fmt::format("view: codec {}, this program knows 1 and {}", codec, kViewCodec));
 }
 
 }  // namespace semview
