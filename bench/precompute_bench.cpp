@@ -70,7 +70,7 @@ int run(const std::filesystem::path& map) {
   }
 
   const cache::Keyspace& keyspace = (*site)->keyspace();
-  const std::vector<std::byte> keyspace_bytes = cache::to_bytes(keyspace);
+  const Fingerprint name = cache::digest(keyspace);
   std::vector<SharedView> views;
   std::vector<cache::EncodedView> encoded;
   std::uint64_t decoded_runs = 0;
@@ -80,7 +80,7 @@ int run(const std::filesystem::path& map) {
        [&] {
          encoded.clear();
          for (std::size_t i = 0; i < kCells; ++i) {
-           encoded.push_back(cache::LmdbStore::encode(keyspace_bytes, cells[i], *views[i]));
+           encoded.push_back(cache::LmdbStore::encode(name, cells[i], *views[i]));
          }
        }},
       {"store, one commit",
@@ -94,7 +94,8 @@ int run(const std::filesystem::path& map) {
        [&] {
          for (const cache::EncodedView& view : encoded) {
            const auto record = cache::decode_record(view.record);
-           decoded_runs += decode_view(record->payload, 360, 90)->runs().size();
+           decoded_runs +=
+               decode_view(record->codec, record->payload, {360, 90, false})->runs().size();
          }
        }},
   };
@@ -112,9 +113,7 @@ int run(const std::filesystem::path& map) {
   const double cast = parts[0].least_s;
   const double all = cast + parts[1].least_s + parts[2].least_s;
   fmt::print("precompute with storing reaches {:.0f} % of the caster's rate\n", 100 * cast / all);
-  fmt::print("{} bytes a record, {} of them its key and checksum\n",
-             record_bytes / kCells,
-             keyspace_bytes.size() + 29);
+  fmt::print("{} bytes a record\n", record_bytes / kCells);
   std::error_code ignored;
   std::filesystem::remove_all(directory, ignored);
   return 0;
