@@ -3,37 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "semview/map/column_map.hpp"
 #include "semview/raycast/column_walk.hpp"
 #include "semview/raycast/row_finder.hpp"
-#include "semview/view/column_view.hpp"
+#include "semview/raycast/row_mosaic.hpp"
 
 namespace semview::raycast {
-
-/// The rows of one column, given away from near to far: who comes first has them.
-class RowMosaic {
- public:
-  void clear(int rows);
-  bool full() const;
-
-  /// Gives the rows [begin, end) that are still free to a surface.
-  void take(int begin, int end, ClassId label, const RunPlane& plane);
-
-  /// Appends runs from top to bottom, and their planes unless `planes` is null; free rows are
-  /// `kNoHit`.
-  void append_runs(std::vector<Run>& runs, std::vector<RunPlane>* planes);
-
- private:
-  std::size_t words_ = 0;
-  int rows_ = 0;
-  std::vector<std::uint64_t> free_;    // a bit a row
-  std::vector<std::uint64_t> starts_;  // a bit where a surface begins
-  std::vector<ClassId> labels_;        // at each start
-  std::vector<RunPlane> planes_;       // the same
-};
 
 /// Paints for one eye. With heights counted from the eye, what is at height z and horizontal
 /// distance d has the tangent z / d. So over a stretch of one profile from d to e
@@ -51,12 +28,8 @@ class ColumnPainter {
   /// @param plan  must outlive this.
   ColumnPainter(const map::ColumnMap& plan, double eye_z_m, bool ranges);
 
-  /// Appends the runs of one column, and their planes if made for ranges.
-  void paint(std::span<const Crossing> crossings,
-             const RowFinder& finder,
-             RowMosaic& mosaic,
-             std::vector<Run>& runs,
-             std::vector<RunPlane>& planes) const;
+  /// Paints every column. What `out` held before is lost.
+  void paint(const Crossings& crossings, const RowFinder& finder, RunCollection& out) const;
 
  private:
   /// A slab, heights from the eye.
@@ -69,8 +42,8 @@ class ColumnPainter {
   };
   /// What stands over a pixel, the slab nearest to the eye's height first.
   struct Stack {
-    bool outside;
     ClassId ground;
+    ClassId ceiling;
     std::uint32_t first_body;
     std::uint32_t end_body;
   };
@@ -81,16 +54,19 @@ class ColumnPainter {
     RunPlane plane;
     bool shields;
   };
-  struct Canvas;
+  template <typename Mosaic>
+  class Brush;
 
-  void paint_body(const Body& body, float near_per_m, float far_per_m, Canvas& canvas) const;
+  template <std::size_t kWords>
+  void paint_rows(const Crossings& crossings, const RowFinder& finder, RunCollection& out) const;
+  template <typename Mosaic>
+  void paint_columns(const Crossings& crossings, const RowFinder& finder, RunCollection& out) const;
 
   bool ranges_;
   std::vector<Body> bodies_;
   std::vector<Stack> stacks_;
   Sheet ground_;
   Sheet ceiling_;
-  ClassId ceiling_label_ = kNoHit;
 };
 
 }  // namespace semview::raycast

@@ -15,16 +15,12 @@ struct Workspace {
   std::optional<ColumnCamera> camera;
   ColumnRays rays;
   Crossings crossings;
-  RowMosaic mosaic;
-  std::vector<Run> runs;
-  std::vector<RunPlane> planes;
+  RunCollection runs;
 };
 
 Workspace& workspace_for(const PanoramaCamera& camera) {
   static thread_local Workspace workspace;
   if (!workspace.camera || workspace.camera->camera() != camera) workspace.camera.emplace(camera);
-  workspace.runs.clear();
-  workspace.planes.clear();
   return workspace;
 }
 
@@ -36,23 +32,14 @@ ColumnView render_column_view(const ColumnScene& scene,
   Workspace& work = workspace_for(request.camera);
   work.camera->aim(scene, request, work.rays);
   walk_columns(scene.grid(), work.rays, work.crossings);
-  const ColumnPainter painter(scene.plan(), request.eye_z_m, ranges);
-  std::vector<std::uint32_t> first_run{0};
-  first_run.reserve(work.rays.count + 1);
-  for (std::size_t c = 0; c < work.rays.count; ++c) {
-    const std::uint32_t first = work.crossings.first[c];
-    const std::uint32_t end = work.crossings.first[c + 1];
-    painter.paint(std::span(work.crossings.all).subspan(first, end - first),
-                  work.camera->rows(),
-                  work.mosaic,
-                  work.runs,
-                  work.planes);
-    first_run.push_back(static_cast<std::uint32_t>(work.runs.size()));
-  }
-  return *ColumnView::from_runs(request.camera.rows,
-                                std::move(first_run),
-                                std::vector<Run>(work.runs),
-                                std::vector<RunPlane>(work.planes));
+  ColumnPainter(scene.plan(), request.eye_z_m, ranges)
+      .paint(work.crossings, work.camera->rows(), work.runs);
+  const auto count = static_cast<std::ptrdiff_t>(work.runs.first_run.back());
+  const std::vector<RunPlane>& planes = work.runs.planes;
+  return ColumnView::from_canonical_runs(request.camera.rows,
+                                         work.runs.first_run,
+                                         {work.runs.runs.begin(), work.runs.runs.begin() + count},
+                                         {planes.begin(), planes.begin() + (ranges ? count : 0)});
 }
 
 Panorama render_panorama(const ColumnScene& scene, const PanoramaRequest& request) {

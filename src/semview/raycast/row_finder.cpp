@@ -13,7 +13,7 @@ constexpr float kMostBins = 4096.0F;
 
 }  // namespace
 
-RowFinder::RowFinder(const PanoramaCamera& camera) {
+RowFinder::RowFinder(const PanoramaCamera& camera) : rows_(camera.rows) {
   for (int r = 0; r < camera.rows; ++r) {
     tangents_.push_back(static_cast<float>(std::tan(camera.elevation_rad(r))));
   }
@@ -27,8 +27,11 @@ RowFinder::RowFinder(const PanoramaCamera& camera) {
       spacing > 0.0F ? std::min((highest_ - lowest_) / spacing + 1.0F, kMostBins) : 1.0F;
   if (highest_ > lowest_) bins_a_tangent_ = bins / (highest_ - lowest_);
 
-  std::vector<int> rows_in_bin(static_cast<std::size_t>(bin(highest_)) + 1);
-  for (const float tangent : tangents_) ++rows_in_bin[static_cast<std::size_t>(bin(tangent))];
+  const auto bin = [this](float tangent) {
+    return static_cast<std::size_t>((tangent - lowest_) * bins_a_tangent_);
+  };
+  std::vector<int> rows_in_bin(bin(highest_) + 1);
+  for (const float tangent : tangents_) ++rows_in_bin[bin(tangent)];
   one_row_a_bin_ = std::ranges::max(rows_in_bin) == 1;
   rows_above_bin_.resize(rows_in_bin.size());
   int above = 0;

@@ -2,6 +2,7 @@
 /// From tangents of elevation to the rows of a panorama. Internal to this module.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -14,24 +15,22 @@ class RowFinder {
  public:
   explicit RowFinder(const PanoramaCamera& camera);
 
-  int rows() const { return static_cast<int>(tangents_.size()) - 1; }
+  int rows() const { return rows_; }
 
   /// How many rows look higher than a tangent, which may be infinite.
   int rows_above(float tangent) const {
+    // The bin never falls with the tangent, so only rows of the same bin need to be compared.
+    const float inside = std::min(std::max(tangent, lowest_), highest_);
+    const auto bin = static_cast<std::size_t>((inside - lowest_) * bins_a_tangent_);
+    int row = rows_above_bin_[bin];
     const float* tangents = tangents_.data();
-    int row = rows_above_bin_[static_cast<std::size_t>(bin(tangent))];
     if (one_row_a_bin_) return row + (tangents[row] > tangent ? 1 : 0);
     while (tangents[row] > tangent) ++row;
     return row;
   }
 
  private:
-  /// Never falls with the tangent, so that only rows of one's own bin need to be compared.
-  int bin(float tangent) const {
-    const float inside = tangent < lowest_ ? lowest_ : tangent > highest_ ? highest_ : tangent;
-    return static_cast<int>((inside - lowest_) * bins_a_tangent_);
-  }
-
+  int rows_;
   std::vector<float> tangents_;  // and -∞ behind them
   float lowest_ = 0.0F;
   float highest_ = 0.0F;

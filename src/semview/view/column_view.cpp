@@ -81,6 +81,21 @@ Result<ColumnView> ColumnView::from_runs(int rows,
     }
     if (start != rows) return broken(c, "the last run does not end at the last row");
   }
+  return assemble(rows, std::move(first_run), std::move(runs), std::move(planes));
+}
+
+ColumnView ColumnView::from_canonical_runs(int rows,
+                                           std::vector<std::uint32_t> first_run,
+                                           std::vector<Run> runs,
+                                           std::vector<RunPlane> planes) {
+  SEMVIEW_ASSERT(from_runs(rows, first_run, runs, planes).has_value());
+  return assemble(rows, std::move(first_run), std::move(runs), std::move(planes));
+}
+
+ColumnView ColumnView::assemble(int rows,
+                                std::vector<std::uint32_t> first_run,
+                                std::vector<Run> runs,
+                                std::vector<RunPlane> planes) {
   ColumnView view;
   view.rows_ = rows;
   view.first_run_ = std::move(first_run);

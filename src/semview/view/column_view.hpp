@@ -63,6 +63,13 @@ class ColumnView {
                                       std::vector<Run> runs,
                                       std::vector<RunPlane> planes = {});
 
+  /// The same of runs that a renderer has made: they must be canonical, which only debug builds
+  /// check.
+  static ColumnView from_canonical_runs(int rows,
+                                        std::vector<std::uint32_t> first_run,
+                                        std::vector<Run> runs,
+                                        std::vector<RunPlane> planes = {});
+
   /// The view whose column c is column `columns[c]` of this one; each below columns().
   ColumnView arranged(std::span<const std::uint32_t> columns) const;
 
@@ -93,6 +100,11 @@ class ColumnView {
   bool operator==(const ColumnView&) const = default;
 
  private:
+  static ColumnView assemble(int rows,
+                             std::vector<std::uint32_t> first_run,
+                             std::vector<Run> runs,
+                             std::vector<RunPlane> planes);
+
   int rows_ = 0;
   std::vector<std::uint32_t> first_run_;
   std::vector<Run> runs_;
