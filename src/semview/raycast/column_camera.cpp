@@ -10,6 +10,8 @@ namespace semview::raycast {
 namespace {
 
 constexpr double kContact_m = 1e-4;
+// From farther away nothing of a plan is seen: beyond it, whole cells in float would not be exact.
+constexpr std::int32_t kMostCells = 1 << 21;
 
 EyeOnAxis eye_on_axis(double position_px, double resolution_m) {
   const double edge = std::round(position_px);
@@ -57,7 +59,8 @@ void begin(ColumnRays& rays, std::size_t ray, int columns, int rows) {
   const float enters_u = u.enters_m();
   const float enters_v = v.enters_m();
   const float enters_m = std::max(enters_u, enters_v);
-  const bool meets = enters_u >= 0.0F && enters_v >= 0.0F;
+  const bool meets =
+      enters_u >= 0.0F && enters_v >= 0.0F && std::max(u.end(), v.end()) <= kMostCells;
   rays.begin_u[ray] = enters_u == enters_m ? std::max(0, u.first()) : u.at(enters_m);
   rays.begin_v[ray] = enters_v == enters_m ? std::max(0, v.first()) : v.at(enters_m);
   rays.begins_at_m[ray] = enters_m;
@@ -95,7 +98,7 @@ void ColumnCamera::aim(const ColumnScene& scene,
   rays.u = eye_on_axis(eye.x(), grid.resolution_m);
   rays.v = eye_on_axis(eye.y(), grid.resolution_m);
   const bool between = request.eye_z_m > grid.ground_m && request.eye_z_m < grid.top_m;
-  rays.stop_at = between ? ColumnGrid::kClosed : 0;
+  rays.through_closed = !between;
 
   // Cells from robot: turned by the yaw, drawn by the affine, turned back by the plan's origin.
   const auto cells_from_robot = [&](double x, double y) {

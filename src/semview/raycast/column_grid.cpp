@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace semview::raycast {
 namespace {
@@ -31,9 +30,7 @@ double highest(const map::ColumnMap& plan) {
   return top_m;
 }
 
-/// Slabs without a gap from the ground to the top: nothing behind is seen between the two, nothing
-/// is above, and what goes below the ground in between never comes up again.
-bool closed(const ColumnProfile& profile, double ground_m, double top_m) {
+bool is_closed(const ColumnProfile& profile, double ground_m, double top_m) {
   double height_m = ground_m;
   for (const Slab& slab : profile.slabs) {
     if (slab.z_min_m > height_m) return false;
@@ -42,38 +39,40 @@ bool closed(const ColumnProfile& profile, double ground_m, double top_m) {
   return !profile.slabs.empty() && height_m >= top_m;
 }
 
-/// Chebyshev distances to the nearest cell of another profile, by two passes of a chamfer mask,
-/// which is exact for this metric. The border is another profile.
-class ReachField {
- public:
-  ReachField(ColumnGrid& grid) : grid_(grid), stride_(grid.stride()) {}
+/// A cell with reach 1 for each profile, or 0 if it is closed.
+std::array<std::uint16_t, 256> cells_of(const map::ColumnMap& plan, const ColumnGrid& grid) {
+  const std::vector<std::uint8_t> appearance = appearances(plan.profiles);
+  std::array<std::uint16_t, 256> cells{};
+  for (std::size_t p = 0; p < plan.profiles.size(); ++p) {
+    const int reach = is_closed(plan.profiles[p], grid.ground_m, grid.top_m) ? 0 : 1;
+    cells[p] = static_cast<std::uint16_t>(appearance[p] << 8 | reach);
+  }
+  return cells;
+}
 
-  void measure() {
-    for (int r = 1; r <= grid_.rows; ++r) {
-      for (int c = 1; c <= grid_.columns; ++c) relax(r * stride_ + c, -1);
-    }
-    for (int r = grid_.rows; r >= 1; --r) {
-      for (int c = grid_.columns; c >= 1; --c) relax(r * stride_ + c, 1);
+/// Sets the reaches of one plane, from its far corner on: the square from a cell on is as large as
+/// the smallest of those from its three neighbours ahead allows.
+void measure_reaches(ColumnGrid& grid, bool falls_u, bool falls_v) {
+  const std::ptrdiff_t across = falls_u ? -1 : 1;
+  const std::ptrdiff_t up = falls_v ? -grid.stride() : grid.stride();
+  std::uint16_t* plane = grid.cells.data() + static_cast<std::ptrdiff_t>(grid.plane_size()) *
+                                                 ColumnGrid::plane(falls_u, falls_v);
+  for (int i = 0; i < grid.rows; ++i) {
+    const int v = falls_v ? 1 + i : grid.rows - i;
+    for (int j = 0; j < grid.columns; ++j) {
+      const int u = falls_u ? 1 + j : grid.columns - j;
+      std::uint16_t* cell = plane + static_cast<std::ptrdiff_t>(v) * grid.stride() + u;
+      if ((*cell & ColumnGrid::kReachMask) == 0) continue;
+      int ahead = ColumnGrid::kReachMask - 1;
+      for (const std::ptrdiff_t step : {across, up, across + up}) {
+        // Neither the border nor a closed cell is part of the square: both have reach 0.
+        const bool same = cell[step] >> 8 == *cell >> 8;
+        ahead = std::min(ahead, same ? cell[step] & ColumnGrid::kReachMask : 0);
+      }
+      *cell = static_cast<std::uint16_t>((*cell & ~ColumnGrid::kReachMask) | (ahead + 1));
     }
   }
-
- private:
-  /// `way` -1 looks at the neighbours that a pass from below left has seen, 1 at the others.
-  void relax(std::ptrdiff_t index, int way) {
-    std::uint16_t& cell = grid_.cells[static_cast<std::size_t>(index)];
-    int reach = way < 0 ? ColumnGrid::kReachMask : cell & ColumnGrid::kReachMask;
-    for (const std::ptrdiff_t step : {stride_ - 1, stride_, stride_ + 1, 1}) {
-      const std::uint16_t other = grid_.cells[static_cast<std::size_t>(index + way * step)];
-      const int other_reach = other & ColumnGrid::kReachMask;
-      const bool same = other >> 8 == cell >> 8 && other_reach != 0;
-      reach = std::min(reach, same ? other_reach + 1 : 1);
-    }
-    cell = static_cast<std::uint16_t>((cell & ~ColumnGrid::kReachMask) | reach);
-  }
-
-  ColumnGrid& grid_;
-  int stride_;
-};
+}
 
 }  // namespace
 
@@ -84,23 +83,24 @@ ColumnGrid build_column_grid(const map::ColumnMap& plan) {
   grid.resolution_m = plan.resolution_m;
   grid.ground_m = plan.ground_height_m;
   grid.top_m = highest(plan);
-  const std::vector<std::uint8_t> appearance = appearances(plan.profiles);
-  std::array<std::uint16_t, 256> cell_of{};
-  for (std::size_t p = 0; p < plan.profiles.size(); ++p) {
-    const bool is_closed = closed(plan.profiles[p], grid.ground_m, grid.top_m);
-    // Reach 1 until it is measured.
-    cell_of[p] =
-        static_cast<std::uint16_t>(appearance[p] << 8 | (is_closed ? ColumnGrid::kClosed : 0) | 1);
-  }
+  const std::array<std::uint16_t, 256> cell_of = cells_of(plan, grid);
+  const auto plane_size = static_cast<std::size_t>(grid.plane_size());
   const auto stride = static_cast<std::size_t>(grid.stride());
-  grid.cells.assign(stride * (static_cast<std::size_t>(grid.rows) + 2) + 1, 0);
+  grid.cells.assign(ColumnGrid::kPlanes * plane_size + 1, 0);
   for (int v = 0; v < grid.rows; ++v) {
     for (int u = 0; u < grid.columns; ++u) {
       grid.cells[static_cast<std::size_t>(v + 1) * stride + static_cast<std::size_t>(u + 1)] =
           cell_of[plan.profile_of_pixel.at(grid.rows - 1 - v, u)];
     }
   }
-  ReachField(grid).measure();
+  for (std::size_t plane = 1; plane < ColumnGrid::kPlanes; ++plane) {
+    std::copy_n(grid.cells.begin(),
+                plane_size,
+                grid.cells.begin() + static_cast<std::ptrdiff_t>(plane * plane_size));
+  }
+  for (const bool falls_u : {false, true}) {
+    for (const bool falls_v : {false, true}) measure_reaches(grid, falls_u, falls_v);
+  }
   return grid;
 }
 

@@ -161,11 +161,11 @@ void ColumnPainter::paint_columns(const Crossings& crossings,
                                   RunCollection& out) const {
   Mosaic mosaic(finder.rows());
   Brush<Mosaic> brush(*this, finder, mosaic);
-  for (std::size_t c = 0; c + 1 < crossings.first.size(); ++c) {
-    const std::uint32_t end = crossings.first[c + 1];
+  for (std::size_t c = 0; c < crossings.begin.size(); ++c) {
+    const std::uint32_t end = crossings.end[c];
     brush.begin();
     float near_per_m = kNearest_per_m;
-    for (std::uint32_t i = crossings.first[c]; i < end; ++i) {
+    for (std::uint32_t i = crossings.begin[c]; i < end; ++i) {
       const float far_per_m = i + 1 == end ? 0.0F : per_m(crossings.all[i + 1].distance_m);
       // Pixels that the ray merely touches do not count.
       if (!(far_per_m < near_per_m)) continue;

@@ -2,13 +2,13 @@
 /// Where the rays of a panorama's columns cross from one profile to another. Internal to this
 /// module.
 ///
-/// All rays of a column stand over one line of the plan. Along it the walk leaps from cell to cell:
-/// the cells nearer than a cell's reach have its profile, so the ray goes on to where it leaves
-/// that square. With u, v the plan's axes in cells, and counting along each in the ray's own
-/// direction from the eye's cell,
+/// All rays of a column stand over one line of the plan. Along it the walk leaps from square to
+/// square: the cells within a cell's reach have its profile, so the ray goes on to where it leaves
+/// them. With u, v the plan's axes in cells, and counting along each in the ray's own direction
+/// from the eye's cell,
 ///
 ///     distance of the far edge of cell i    (i + 1 - behind) / slope
-///     cell at a distance t                  trunc(t · slope + behind)
+///     cell at a distance t                  round(t · slope + behind - 1/2)
 ///
 /// where `behind` is the part of the eye's cell that lies behind the eye. Nothing grows with the
 /// eye's coordinates, so that float errs by some 1e-7 of the distance.
@@ -17,6 +17,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "semview/raycast/column_grid.hpp"
@@ -37,7 +38,7 @@ struct ColumnRays {
 
   EyeOnAxis u;
   EyeOnAxis v;
-  std::uint16_t stop_at = 0;  // a walk ends at cells with one of these bits, besides at the border
+  bool through_closed = false;  // a walk ends at the border only
   std::size_t count = 0;
   std::vector<float> slope_u, slope_v;  // cells a metre of range, not both 0
   /// Cells and distance from the eye's cell at which the walk begins: all 0, or where an eye past
@@ -54,11 +55,16 @@ struct Crossing {
   bool operator==(const Crossing&) const = default;
 };
 
-/// The crossings of ray i are [first[i], first[i + 1]); a ray's first is at distance 0. Distances
-/// do not decrease by more than rounding does; the last crossing is where the walk ended.
+/// The crossings of ray i are [begin[i], end[i]) of `all`; its first is at distance 0. Distances do
+/// not decrease by more than rounding does; the last crossing is where the walk ended.
 struct Crossings {
-  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> begin;
+  std::vector<std::uint32_t> end;
   std::vector<Crossing> all;
+
+  std::span<const Crossing> of(std::size_t ray) const {
+    return std::span(all).subspan(begin[ray], end[ray] - begin[ray]);
+  }
 };
 
 /// @param crossings  what it held before is lost, its memory is used again.
