@@ -36,27 +36,33 @@ class ColumnPainter {
   struct Body {
     float bottom_m;
     float top_m;
-    ClassId label;
-    RunPlane top;        // as seen from above
-    RunPlane underside;  // as seen from below
+    Surface top;        // as seen from above
+    Surface underside;  // as seen from below
   };
   /// What stands over a pixel, the slab nearest to the eye's height first.
   struct Stack {
-    ClassId ground;
-    ClassId ceiling;
+    std::uint32_t sheets;  // an index
     std::uint32_t first_body;
     std::uint32_t end_body;
   };
   /// The ground or the ceiling. It has one plane, so a column of pixels over which its label stays
   /// is painted at once, unless it lies between the eye and the slabs.
   struct Sheet {
-    float height_m;
+    float height_m = 0.0F;
     RunPlane plane;
-    bool shields;
+    bool shields = false;
+  };
+  /// What ground and what ceiling belong to a profile; `kNoHit` for none.
+  struct Sheets {
+    ClassId ground = kNoHit;
+    ClassId ceiling = kNoHit;
+
+    bool operator==(const Sheets&) const = default;
   };
   template <typename Mosaic>
   class Brush;
 
+  std::uint32_t index_of(const Sheets& sheets);
   template <std::size_t kWords>
   void paint_rows(const Crossings& crossings, const RowFinder& finder, RunCollection& out) const;
   template <typename Mosaic>
@@ -65,6 +71,7 @@ class ColumnPainter {
   bool ranges_;
   std::vector<Body> bodies_;
   std::vector<Stack> stacks_;
+  std::vector<Sheets> sheets_;  // the first is none
   Sheet ground_;
   Sheet ceiling_;
 };

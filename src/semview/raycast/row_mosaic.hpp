@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "semview/raycast/row_finder.hpp"
 #include "semview/view/column_view.hpp"
 
 namespace semview::raycast {
@@ -19,27 +20,38 @@ struct RunCollection {
   std::vector<RunPlane> planes;
 };
 
-/// What each row of a column shows: who comes first has it. Rows are bits of `kWords` words, so
-/// that an interval is taken by a few operations without a branch.
+/// A label and a plane, each in a word: passed in registers, and stored as they are loaded again.
+struct Surface {
+  std::uint64_t plane = 0;  // bits of a RunPlane
+  std::uint64_t label = kNoHit;
+
+  Surface() = default;
+  Surface(ClassId label_id, const RunPlane& run_plane)
+      : plane(std::bit_cast<std::uint64_t>(run_plane)), label(label_id) {}
+  static Surface upright(std::uint64_t label, float near_per_m) {
+    static_assert(std::endian::native == std::endian::little && sizeof(RunPlane) == 8);
+    Surface surface;
+    surface.plane = std::bit_cast<std::uint32_t>(near_per_m);
+    surface.label = label;
+    return surface;
+  }
+};
+
+/// What each row of a column shows: who comes first has it. Rows are bits of `kWords` words, or
+/// more than the camera has, so that an interval is taken by a few operations without a branch.
 template <std::size_t kWords, bool kRanges>
 class RowMosaic {
  public:
-  static constexpr std::size_t kMostRows = kWords * 64;
+  static constexpr bool kHasPlanes = kRanges;
 
-  explicit RowMosaic(int rows) : rows_(static_cast<std::size_t>(rows)), above_(rows_ + 1) {
-    for (std::size_t row = 0; row <= rows_; ++row) {
-      for (std::size_t w = 0; w < kWords; ++w) {
-        const std::size_t before = w * 64;
-        above_[row][w] = row >= before + 64 ? ~std::uint64_t{0}
-                         : row > before     ? (std::uint64_t{1} << (row - before)) - 1
-                                            : 0;
-      }
-    }
-  }
+  explicit RowMosaic(const RowTable& table) : rows_(table.rows), bits_above_(table.bits_above) {}
 
   void clear() {
-    free_ = above_[rows_];
-    starts_ = {};
+    const std::uint64_t* all = bits_above(rows_);
+    for (std::size_t w = 0; w < kWords; ++w) {
+      free_[w] = all[w];
+      starts_[w] = 0;
+    }
   }
 
   bool full() const {
@@ -49,84 +61,86 @@ class RowMosaic {
   }
 
   /// Gives the rows [begin, end) that are still free to a surface; none if begin >= end.
-  void take(int begin, int end, ClassId label, const RunPlane& plane) {
-    const Words& before_end = above_[static_cast<std::size_t>(end)];
-    const Words& before_begin = above_[static_cast<std::size_t>(begin)];
-    Words starts;
+  void take(int begin, int end, Surface surface) {
+    const std::uint64_t* above_end = bits_above(end);
+    const std::uint64_t* above_begin = bits_above(begin);
+    std::array<std::uint64_t, kWords> starts;
     std::uint64_t carry = 0;
-    std::uint64_t more = 0;
     for (std::size_t w = 0; w < kWords; ++w) {
-      const std::uint64_t taken = free_[w] & before_end[w] & ~before_begin[w];
+      const std::uint64_t taken = free_[w] & above_end[w] & ~above_begin[w];
       free_[w] ^= taken;
       starts[w] = taken & ~(taken << 1 | carry);
       starts_[w] |= starts[w];
       carry = taken >> 63;
     }
     // Nearly always one piece or none, which is put where no row is.
-    std::size_t first = kMostRows;
+    std::size_t first = kWords * 64;
+    std::uint64_t more = 0;
     for (std::size_t w = kWords; w-- > 0;) {
-      if (starts[w] == 0) continue;
-      more |= first != kMostRows ? 1 : starts[w] & (starts[w] - 1);
-      first = w * 64 + static_cast<std::size_t>(std::countr_zero(starts[w]));
+      more = starts[w] != 0 && first != kWords * 64 ? 1 : more | (starts[w] & (starts[w] - 1));
+      first = starts[w] != 0 ? w * 64 + lowest_bit(starts[w]) : first;
     }
-    begin_surface(first, label, plane);
-    if (more != 0) begin_surfaces(starts, label, plane);
+    begin_surface(first, surface);
+    if (more != 0) begin_surfaces(starts, surface);
   }
 
-  /// Ends the column; rows that nobody took are `kNoHit`.
-  void append_runs(RunCollection& out) {
-    if (!full()) take(0, static_cast<int>(rows_), kNoHit, {});
-    std::size_t n = out.first_run.back();
-    reserve(out, n + rows_);
+  /// Ends the column; rows that nobody took are `kNoHit`. Room for all rows must be there.
+  std::uint32_t append_runs(RunCollection& out, std::uint32_t n) {
+    if (!full()) take(0, rows_, {});
     Run* runs = out.runs.data();
     RunPlane* planes = out.planes.data();
-    ClassId label = labels_[0];
-    RunPlane plane = kRanges ? planes_[0] : RunPlane{};
+    Surface last = surface_at(0);
     // Writes each run that may end here, and goes on behind it if it does.
-    const auto end_at = [&](std::size_t row) {
-      runs[n] = {static_cast<std::uint16_t>(row), label};
-      if constexpr (kRanges) planes[n] = plane;
-    };
     for (std::size_t w = 0; w < kWords; ++w) {
       for (std::uint64_t bits = starts_[w]; bits != 0; bits &= bits - 1) {
-        const std::size_t row = w * 64 + static_cast<std::size_t>(std::countr_zero(bits));
-        end_at(row);
-        bool ends = labels_[row] != label;
-        if constexpr (kRanges) ends |= !(planes_[row] == plane);
+        const std::size_t row = w * 64 + lowest_bit(bits);
+        const Surface next = surface_at(row);
+        write(runs, planes, n, row, last);
+        const bool ends = next.label != last.label || (kRanges && next.plane != last.plane);
         n += ends ? 1 : 0;
-        label = labels_[row];
-        if constexpr (kRanges) plane = planes_[row];
+        last = next;
       }
     }
-    end_at(rows_);
-    out.first_run.push_back(static_cast<std::uint32_t>(n + 1));
+    write(runs, planes, n, static_cast<std::size_t>(rows_), last);
+    return n + 1;
   }
 
  private:
-  using Words = std::array<std::uint64_t, kWords>;
-
-  void begin_surface(std::size_t row, ClassId label, const RunPlane& plane) {
-    labels_[row] = label;
-    if constexpr (kRanges) planes_[row] = plane;
+  const std::uint64_t* bits_above(int row) const {
+    return bits_above_ + static_cast<std::size_t>(row) * kWords;
   }
-  void begin_surfaces(const Words& starts, ClassId label, const RunPlane& plane) {
+  static std::size_t lowest_bit(std::uint64_t bits) {
+    return static_cast<std::size_t>(std::countr_zero(bits));
+  }
+  static void write(
+      Run* runs, RunPlane* planes, std::uint32_t n, std::size_t end, Surface surface) {
+    runs[n] = {static_cast<std::uint16_t>(end), static_cast<ClassId>(surface.label)};
+    if constexpr (kRanges) planes[n] = std::bit_cast<RunPlane>(surface.plane);
+  }
+  void begin_surface(std::size_t row, Surface surface) {
+    labels_[row] = surface.label;
+    if constexpr (kRanges) planes_[row] = surface.plane;
+  }
+  Surface surface_at(std::size_t row) const {
+    Surface surface;
+    surface.label = labels_[row];
+    if constexpr (kRanges) surface.plane = planes_[row];
+    return surface;
+  }
+  void begin_surfaces(const std::array<std::uint64_t, kWords>& starts, Surface surface) {
     for (std::size_t w = 0; w < kWords; ++w) {
       for (std::uint64_t bits = starts[w]; bits != 0; bits &= bits - 1) {
-        begin_surface(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)), label, plane);
+        begin_surface(w * 64 + lowest_bit(bits), surface);
       }
     }
   }
-  static void reserve(RunCollection& out, std::size_t least) {
-    if (out.runs.size() < least) out.runs.resize(2 * least);
-    if (kRanges && out.planes.size() < least) out.planes.resize(2 * least);
-  }
 
-  std::size_t rows_;
-  std::vector<Words> above_;  // [row]: the bits of the rows above it
-  Words free_{};
-  Words starts_{};  // where a surface begins
-  std::array<ClassId, kMostRows + 1> labels_;
-  std::array<RunPlane, kRanges ? kMostRows + 1 : 1> planes_;
+  int rows_;
+  const std::uint64_t* bits_above_;
+  std::array<std::uint64_t, kWords> free_{};
+  std::array<std::uint64_t, kWords> starts_{};         // where a surface begins
+  std::array<std::uint64_t, kWords * 64 + 1> labels_;  // where one begins
+  std::array<std::uint64_t, kWords * 64 + 1> planes_;
 };
 
 }  // namespace semview::raycast
