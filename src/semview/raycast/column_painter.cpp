@@ -23,20 +23,23 @@ float per_m(float distance_m) { return 1.0F / std::max(distance_m, 1.0F / kNeare
 
 ColumnPainter::ColumnPainter(const map::ColumnMap& plan, double eye_z_m, bool ranges)
     : ranges_(ranges), sheets_(1) {
-  const auto add = [&](const Slab& slab) {
+  const auto body = [eye_z_m](const Slab& slab) {
     const double bottom_m = slab.z_min_m - eye_z_m;
     const double top_m = slab.z_max_m - eye_z_m;
-    bodies_.push_back({static_cast<float>(bottom_m),
-                       static_cast<float>(top_m),
-                       {slab.label, level_plane(top_m)},
-                       {slab.label, level_plane(bottom_m)}});
+    return Body{static_cast<float>(bottom_m),
+                static_cast<float>(top_m),
+                {slab.label, level_plane(top_m)},
+                {slab.label, level_plane(bottom_m)}};
   };
   for (const ColumnProfile& profile : plan.profiles) {
     const auto first = static_cast<std::uint32_t>(bodies_.size());
     const auto above = std::ranges::find_if(
         profile.slabs, [eye_z_m](const Slab& slab) { return slab.z_max_m > eye_z_m; });
-    for (auto slab = above; slab != profile.slabs.end(); ++slab) add(*slab);
-    for (auto slab = above; slab != profile.slabs.begin();) add(*--slab);
+    for (auto slab = above; slab != profile.slabs.end(); ++slab) bodies_.push_back(body(*slab));
+    for (auto slab = above; slab != profile.slabs.begin();) bodies_.push_back(body(*--slab));
+    for (auto slab = profile.slabs.end(); slab != profile.slabs.begin();) {
+      bodies_from_top_.push_back(body(*--slab));
+    }
     Sheets sheets;
     if (!profile.outside) sheets.ground = profile.ground;
     if (!profile.outside && plan.ceiling) sheets.ceiling = plan.ceiling->label;
@@ -81,6 +84,24 @@ class ColumnPainter::Brush {
     }
   }
 
+  /// A whole column of which a closed profile is all that stands in the way: ceiling, faces and
+  /// ground follow each other.
+  std::uint32_t wall(
+      const Stack& before, const Stack& at, float per_m, RunCollection& out, std::uint32_t runs) {
+    const Sheets& sheets = painter_.sheets_[before.sheets];
+    RunWriter<Mosaic::kHasPlanes> writer(out, runs);
+    const Body* bodies = painter_.bodies_from_top_.data();
+    const Body* body = bodies + at.first_body;
+    writer.add(table_.rows_above(body->top_m * per_m), surface_of(sheets.ceiling, ceiling_.sheet));
+    const float near_per_m = std::min(per_m, kSteepest_per_m);
+    for (; body != bodies + at.end_body; ++body) {
+      writer.add(table_.rows_above(body->bottom_m * per_m),
+                 Surface::upright(body->top.label, near_per_m));
+    }
+    writer.add(table_.rows, surface_of(sheets.ground, ground_.sheet));
+    return writer.runs();
+  }
+
   bool full() const { return mosaic_.full(); }
 
   std::uint32_t end(RunCollection& out, std::uint32_t runs) {
@@ -122,6 +143,10 @@ class ColumnPainter::Brush {
       since_row = at_row;
     }
   };
+
+  static Surface surface_of(ClassId label, const Sheet& sheet) {
+    return label == kNoHit ? Surface() : Surface(label, sheet.plane);
+  }
 
   void change_sheets(std::uint32_t sheets, float near_per_m) {
     sheets_ = sheets;
@@ -187,16 +212,25 @@ void ColumnPainter::paint_columns(const Crossings& crossings,
     if (out.runs.size() < runs + rows) out.runs.resize(2 * (runs + rows));
     if (out.planes.size() < out.runs.size()) out.planes.resize(out.runs.size());
     out.first_run[c] = runs;
-    brush.begin();
+    const Crossing* begin = all + crossings.begin[c];
     const Crossing* end = all + crossings.end[c];
+    if (crossings.ends_closed && end - begin == 2) {
+      const Stack& before = stacks[begin->profile];
+      const Stack& at = stacks[begin[1].profile];
+      if (before.empty() && !at.empty()) {
+        runs = brush.wall(before, at, per_m(begin[1].distance_m), out, runs);
+        continue;
+      }
+    }
+    brush.begin();
     float near_per_m = kNearest_per_m;
-    for (const Crossing* crossing = all + crossings.begin[c]; crossing != end; ++crossing) {
+    for (const Crossing* crossing = begin; crossing != end; ++crossing) {
       const float far_per_m = crossing + 1 == end ? 0.0F : per_m(crossing[1].distance_m);
       // Pixels that the ray merely touches do not count.
       if (!(far_per_m < near_per_m)) continue;
       const Stack& stack = stacks[crossing->profile];
       brush.stretch(stack, near_per_m, far_per_m);
-      if (stack.end_body > stack.first_body && brush.full()) break;
+      if (!stack.empty() && brush.full()) break;
       near_per_m = far_per_m;
     }
     runs = brush.end(out, runs);

@@ -44,6 +44,8 @@ class ColumnPainter {
     std::uint32_t sheets;  // an index
     std::uint32_t first_body;
     std::uint32_t end_body;
+
+    bool empty() const { return first_body == end_body; }
   };
   /// The ground or the ceiling. It has one plane, so a column of pixels over which its label stays
   /// is painted at once, unless it lies between the eye and the slabs.
@@ -70,6 +72,7 @@ class ColumnPainter {
 
   bool ranges_;
   std::vector<Body> bodies_;
+  std::vector<Body> bodies_from_top_;  // the same, each stack from the highest slab down
   std::vector<Stack> stacks_;
   std::vector<Sheets> sheets_;  // the first is none
   Sheet ground_;

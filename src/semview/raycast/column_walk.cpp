@@ -370,6 +370,7 @@ void clear(const ColumnRays& rays, Crossings& crossings) {
   crossings.begin.resize(rays.count);
   crossings.end.resize(rays.count);
   crossings.all.clear();
+  crossings.ends_closed = !rays.through_closed;
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ struct Crossings {
   std::vector<std::uint32_t> begin;
   std::vector<std::uint32_t> end;
   std::vector<Crossing> all;
+  bool ends_closed = false;  // a walk that ended over slabs ended at a closed profile
 
   std::span<const Crossing> of(std::size_t ray) const {
     return std::span(all).subspan(begin[ray], end[ray] - begin[ray]);

@@ -37,6 +37,36 @@ struct Surface {
   }
 };
 
+/// Appends runs of one column from top to bottom. There must be room.
+template <bool kRanges>
+class RunWriter {
+ public:
+  RunWriter(RunCollection& out, std::uint32_t runs)
+      : runs_(out.runs.data()), planes_(out.planes.data()), next_(runs) {}
+
+  /// From where the last ended to above a row; nothing if there is none.
+  void add(int end_row, Surface surface) {
+    if (end_row <= end_row_) return;
+    const bool goes_on =
+        end_row_ != 0 && surface.label == last_.label && (!kRanges || surface.plane == last_.plane);
+    next_ += goes_on ? 0 : 1;
+    runs_[next_ - 1] = {static_cast<std::uint16_t>(end_row), static_cast<ClassId>(surface.label)};
+    if constexpr (kRanges) planes_[next_ - 1] = std::bit_cast<RunPlane>(surface.plane);
+    end_row_ = end_row;
+    last_ = surface;
+  }
+
+  /// Of all columns so far.
+  std::uint32_t runs() const { return next_; }
+
+ private:
+  Run* runs_;
+  RunPlane* planes_;
+  std::uint32_t next_;
+  int end_row_ = 0;
+  Surface last_;
+};
+
 /// What each row of a column shows: who comes first has it. Rows are bits of `kWords` words, or
 /// more than the camera has, so that an interval is taken by a few operations without a branch.
 template <std::size_t kWords, bool kRanges>
