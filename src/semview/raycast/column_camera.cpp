@@ -13,7 +13,9 @@ constexpr double kContact_m = 1e-4;
 // From farther away nothing of a plan is seen: beyond it, whole cells in float would not be exact.
 constexpr std::int32_t kMostCells = 1 << 21;
 
-EyeOnAxis eye_on_axis(double position_px, double resolution_m) {
+/// @param position  of the eye, in pixels.
+EyeOnAxis eye_on_axis(double position, double resolution_m) {
+  const double position_px = std::clamp(position, -1e9, 1e9);
   const double edge = std::round(position_px);
   if (std::abs(position_px - edge) * resolution_m >= kContact_m) {
     const double cell = std::floor(position_px);
