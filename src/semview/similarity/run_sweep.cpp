@@ -173,21 +173,23 @@ void sweep_runs(const PrefixTable& table,
 }
 
 std::int32_t sum_runs(const PrefixTable& table, const ColumnView& view, int heading) {
+  const std::size_t row_stride = table.row_stride();
+  const std::size_t class_stride = table.class_stride();
+  const int rows = table.rows();
   std::int32_t total = 0;
   for (int g = 0; g < table.groups(); ++g) {
-    const int observed = table.first_group() + g;
-    const int q =
-        observed >= heading ? observed - heading : observed - heading + PoseGrid::kHeadings;
+    const int turned = table.first_group() + g - heading;
+    const int q = turned < 0 ? turned + PoseGrid::kHeadings : turned;
+    const Run* run = view.column(q * table.residues()).data();
+    const std::int16_t* column = table.entries() + g;
     for (int residue = 0; residue < table.residues(); ++residue) {
-      const std::int16_t* const column =
-          table.entries() + static_cast<std::size_t>(residue) * table.width() + g;
-      std::size_t above = 0;
-      for (const Run& run : view.column(q * table.residues() + residue)) {
-        const std::size_t below = run.end_row * table.row_stride();
-        const std::size_t label = run.label * table.class_stride();
-        total += column[below + label] - column[above + label];
-        above = below;
+      for (; run->end_row != rows; ++run) {
+        const std::int16_t* const row = column + run->end_row * row_stride;
+        total += row[run[0].label * class_stride] - row[run[1].label * class_stride];
       }
+      total += column[run->end_row * row_stride + run->label * class_stride];
+      ++run;
+      column += table.width();
     }
   }
   return total;
