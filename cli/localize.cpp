@@ -114,8 +114,35 @@ Status end_early(const LocalizeOptions& options,
   return fail(std::move(error));
 }
 
+nlohmann::ordered_json as_json(const robot::DenseStart& start) {
+  nlohmann::ordered_json modes = nlohmann::ordered_json::array();
+  for (const observation::PosteriorMode& mode : start.modes) {
+    modes.push_back({{"x_m", mode.map_from_robot.x_m},
+                     {"y_m", mode.map_from_robot.y_m},
+                     {"yaw_deg", shown_deg(mode.map_from_robot.yaw_rad)},
+                     {"probability", mode.probability},
+                     {"similarity", mode.similarity}});
+  }
+  return {{"stamp_s", start.stamp_s}, {"cells", start.cells}, {"modes", std::move(modes)}};
+}
+
+void print_dense_start(const robot::DenseStart& start) {
+  fmt::print("start: of {} cells at {} headings, the strongest places are\n",
+             start.cells,
+             PoseGrid::kHeadings);
+  for (const observation::PosteriorMode& mode : start.modes) {
+    fmt::print("  {:8.2f} {:8.2f} m  {:6.1f} deg  probability {:.3f}  similarity {:.3f}\n",
+               mode.map_from_robot.x_m,
+               mode.map_from_robot.y_m,
+               deg_from_rad(mode.map_from_robot.yaw_rad),
+               mode.probability,
+               mode.similarity);
+  }
+}
+
 void print_summary(const LocalizeOptions& options,
                    const Scorer& scorer,
+                   const std::optional<robot::DenseStart>& start,
                    const robot::Drive& drive) {
   std::size_t scored = 0;
   std::size_t stale = 0;
@@ -133,7 +160,7 @@ void print_summary(const LocalizeOptions& options,
   const Pose2& pose = last.estimate.map_from_robot;
   const double sigma_m = localization::position_ellipse(last.estimate).major_sigma_m;
   if (options.json) {
-    const nlohmann::ordered_json summary{
+    nlohmann::ordered_json summary{
         {"estimate", options.output},
         {"weights", scorer.weights},
         {"frames", drive.frames.size()},
@@ -151,9 +178,11 @@ void print_summary(const LocalizeOptions& options,
           {"yaw_deg", shown_deg(pose.yaw_rad)},
           {"sigma_m", sigma_m},
           {"weight", last.estimate.weight}}}};
+    if (start) summary["start"] = as_json(*start);
     fmt::print("{}\n", summary.dump(2));
     return;
   }
+  if (start) print_dense_start(*start);
   fmt::print(
       "{}: {} frames, {} scored, {} stale{}{}{}; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} "
       "m); "
@@ -191,6 +220,7 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
     log_info(fmt::format("localizing {} frames; weights: {}", log.frames.size(), scorer.weights));
   }
   robot::Localizer localizer(config, *scorer.source, motion, std::move(start), options.seed);
+  if (is_dense(options)) localizer.search(scorer.free_cells);
   Progress progress;
   robot::Drive so_far;
   robot::PlayerHooks hooks;
@@ -205,7 +235,7 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
     return end_early(options, so_far, localizer.particles(), std::move(drive).error());
   }
   SEMVIEW_TRY_STATUS(write_outputs(options, *drive, localizer.particles()));
-  print_summary(options, scorer, *drive);
+  print_summary(options, scorer, localizer.dense_start(), *drive);
   if (scorer.site) log_unusable_records(*scorer.site, options.site.cache_directory);
   return {};
 }

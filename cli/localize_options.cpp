@@ -109,7 +109,17 @@ void add_start_options(CLI::App& verb, LocalizeOptions& options) {
                   options.init_heading_sigma_deg,
                   "Uncertainty of --init's heading in degrees")
       ->capture_default_str();
-  verb.add_flag("--global", options.global, "Unknown start: anywhere in the map's free space")
+  verb.add_option_function<std::string>(
+          "--global",
+          [&options](const std::string& how) { options.global = how.empty() ? "sampled" : how; },
+          "Unknown start: particles anywhere in the free space (`sampled`, the default), or drawn "
+          "from what the first observation says of every free cell and heading (`dense`)")
+      ->type_name("[sampled|dense]")
+      ->expected(0, 1)
+      ->check([](const std::string& how) {
+        const bool known = how.empty() || how == "sampled" || how == "dense";
+        return known ? std::string() : how + " is neither `sampled` nor `dense`";
+      })
       ->excludes(init);
   verb.add_option(
           "--particles", options.particles, "Number of particles (default 500, 2000 with --global)")
@@ -144,7 +154,7 @@ void add_filter_options(CLI::App& verb, LocalizeOptions& options) {
           "--heading",
           options.heading,
           "Heading from `odometry`, or from the visual `compass`, the best of all 120 headings "
-          "(default: odometry; compass with --global)")
+          "(default: odometry; compass with --global sampled)")
       ->check(CLI::IsMember({"odometry", "compass"}));
   verb.add_option("--compass-gain",
                   options.compass_gain,
@@ -218,7 +228,7 @@ void add_localize_options(CLI::App& verb, LocalizeOptions& options) {
 }
 
 Status check_localize_options(const CLI::App& verb, const LocalizeOptions& options) {
-  if (options.init.empty() && !options.global) {
+  if (options.init.empty() && options.global.empty()) {
     return usage("--init", "expected a start: --init X,Y,YAW_DEG,SIGMA or --global");
   }
   if (!options.init.empty()) {
@@ -239,7 +249,8 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
 
 Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) {
   robot::LocalizerConfig config;
-  const bool compass = options.heading.empty() ? options.global : options.heading == "compass";
+  const bool compass =
+      options.heading.empty() ? options.global == "sampled" : options.heading == "compass";
   config.heading =
       compass ? localization::HeadingStrategy::kCompass : localization::HeadingStrategy::kOdometry;
   config.filter.resample_threshold = options.resample_threshold;
@@ -271,10 +282,10 @@ Result<std::shared_ptr<const localization::MotionModel>> motion_model(
 
 Result<localization::ParticleSet> first_particles(const LocalizeOptions& options,
                                                   std::span<const CellIndex> free_cells) {
-  const std::size_t usual = options.global ? kGlobalParticles : kLocalParticles;
+  const std::size_t usual = !options.global.empty() ? kGlobalParticles : kLocalParticles;
   const std::size_t count = options.particles > 0 ? options.particles : usual;
   Rng rng(options.seed, "initialization");
-  if (options.global) {
+  if (!options.global.empty()) {
     if (free_cells.empty()) {
       return fail(ErrorCode::kFailedPrecondition,
                   fmt::format("{}: --global needs free space, and the map has none", options.map));

@@ -28,8 +28,8 @@ struct LocalizeOptions {
   std::size_t particles = 0;  ///< 0: 500, or 2000 with --global
   std::string init;
   double init_heading_sigma_deg = 10.0;
-  bool global = false;
-  std::string heading;  ///< empty: odometry, or compass with --global
+  std::string global;   ///< empty: the start is known; "sampled" or "dense"
+  std::string heading;  ///< empty: odometry, or compass with --global sampled
   std::string motion = "odometry";
   localization::OdometryMotionConfig alphas = {};
   double sigma_m = localization::PositionNoiseConfig{}.sigma_m;
@@ -46,6 +46,9 @@ struct LocalizeOptions {
   bool json = false;
   SiteOptions site = {};
 };
+
+/// --global dense: the first observation is compared with every free cell.
+inline bool is_dense(const LocalizeOptions& options) { return options.global == "dense"; }
 
 /// Declares the options; `options` must outlive the parse.
 void add_localize_options(CLI::App& verb, LocalizeOptions& options);

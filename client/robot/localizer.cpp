@@ -9,6 +9,10 @@ namespace {
 
 using localization::PoseEstimate;
 using localization::UpdateReport;
+using observation::DensePosterior;
+
+/// Places worth telling a person.
+constexpr std::size_t kToldModes = 5;
 
 /// May the same question be answered later?
 bool heals_by_waiting(ErrorCode code) {
@@ -56,8 +60,10 @@ Localizer::Localizer(const LocalizerConfig& config,
                      localization::ParticleSet start,
                      std::uint64_t seed)
     : config_(config),
+      source_(source),
       model_(source, config.heading, config.weighting),
-      filter_(config.filter, std::move(motion), std::move(start), seed) {}
+      filter_(config.filter, std::move(motion), std::move(start), seed),
+      seed_(seed) {}
 
 Result<FrameReport> Localizer::advance(const Frame& frame) {
   follow_odometry(frame.odom_from_robot);
@@ -95,22 +101,48 @@ void Localizer::follow_odometry(const Pose2& odom_from_robot) {
 }
 
 Result<FrameReport> Localizer::score(const Observation& observation) {
-  Status taken = model_.set_observation(observation);
-  Result<UpdateReport> update =
-      taken ? filter_.update(model_) : Result<UpdateReport>(fail(taken.error()));
-  if (!update) {
-    if (!heals_by_waiting(update.error().code)) return fail(std::move(update).error());
-    return not_scored(FrameState::kStale, std::move(update).error().message);
+  Result<FrameReport> report =
+      cells_to_search_.empty() ? weigh(observation) : search_cells(observation);
+  if (!report && heals_by_waiting(report.error().code)) {
+    return not_scored(FrameState::kStale, std::move(report).error().message);
   }
+  return report;
+}
+
+Result<FrameReport> Localizer::weigh(const Observation& observation) {
+  SEMVIEW_TRY_STATUS(model_.set_observation(observation));
+  SEMVIEW_TRY(const UpdateReport update, filter_.update(model_));
   FrameReport report;
-  report.effective_sample_size = update->effective_sample_size;
+  report.effective_sample_size = update.effective_sample_size;
   report.scores = model_.last_scores();
-  if (update->outcome == localization::WeightOutcome::kUninformative) {
+  if (update.outcome == localization::WeightOutcome::kUninformative) {
     report.state = FrameState::kUninformative;
     report.reason = report.scores.without_view == filter_.particles().size()
                         ? "no particle stands where the map has a view"
                         : "no particle has a similarity above 0";
   }
+  return report;
+}
+
+/// The particles that this gives have the observation in them: they are not weighed by it again.
+Result<FrameReport> Localizer::search_cells(const Observation& observation) {
+  SEMVIEW_TRY_STATUS(source_.set_observation(observation));
+  SEMVIEW_TRY(const DensePosterior posterior,
+              DensePosterior::compute(
+                  source_, config_.weighting, cells_to_search_, observation.base_from_eye));
+  FrameReport report;
+  report.scores = posterior.scores();
+  if (!posterior.informative()) {
+    report.state = FrameState::kUninformative;
+    report.reason = "no free cell has a similarity above 0";
+    return report;
+  }
+  Rng rng(seed_, "dense start");
+  filter_.restart(posterior.draw(filter_.particles().size(), rng));
+  report.effective_sample_size = localization::effective_sample_size(filter_.particles());
+  dense_start_ = {
+      observation.stamp_s, posterior.cells().size(), posterior.modes(kToldModes, config_.mode)};
+  cells_to_search_.clear();
   return report;
 }
 

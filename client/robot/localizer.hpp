@@ -7,12 +7,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "semview/core/result.hpp"
 #include "semview/localization/heading_strategy.hpp"
 #include "semview/localization/motion_model.hpp"
 #include "semview/localization/particle_filter.hpp"
 #include "semview/localization/pose_estimate.hpp"
+#include "semview/observation/dense_posterior.hpp"
 #include "semview/observation/score_source_observation_model.hpp"
 #include "semview/observation/similarity_weighting.hpp"
 #include "semview/view/score_source.hpp"
@@ -59,6 +61,13 @@ struct FrameReport {
   observation::ScoreSummary scores;  ///< zeros unless scored
 };
 
+/// What a search of all cells found.
+struct DenseStart {
+  double stamp_s = 0.0;   ///< of the frame that was searched for
+  std::size_t cells = 0;  ///< each with all headings
+  std::vector<observation::PosteriorMode> modes;
+};
+
 /// The filter of one robot.
 ///
 /// When the source cannot be reached, is too slow or too busy (kUnavailable, kDeadlineExceeded,
@@ -75,6 +84,14 @@ class Localizer {
             localization::ParticleSet start,
             std::uint64_t seed);
 
+  /// Lets the first observation that can be scored be compared with all headings of `cells` (not
+  /// empty) and the particles be drawn anew from what it says, whatever they are until then. As
+  /// many are drawn as there are.
+  void search(std::vector<CellIndex> cells) { cells_to_search_ = std::move(cells); }
+
+  /// What the search found, once it is done.
+  const std::optional<DenseStart>& dense_start() const { return dense_start_; }
+
   /// @errors those of the source that waiting does not heal, a wrong map or matrix for example.
   Result<FrameReport> advance(const Frame& frame);
 
@@ -83,11 +100,17 @@ class Localizer {
  private:
   void follow_odometry(const Pose2& odom_from_robot);
   Result<FrameReport> score(const Observation& observation);
+  Result<FrameReport> weigh(const Observation& observation);
+  Result<FrameReport> search_cells(const Observation& observation);
   localization::PoseEstimate dead_reckoning() const;
 
   LocalizerConfig config_;
+  ScoreSource& source_;
   observation::ScoreSourceObservationModel model_;
   localization::ParticleFilter filter_;
+  std::uint64_t seed_;
+  std::vector<CellIndex> cells_to_search_;  ///< empty: no search, or done
+  std::optional<DenseStart> dense_start_;
   std::optional<Pose2> odom_from_last_frame_;
   std::optional<Pose2> map_from_last_estimate_;  ///< carried on by odometry
 };

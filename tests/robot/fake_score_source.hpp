@@ -13,7 +13,8 @@
 namespace semview::robot {
 
 /// Similarity falls linearly with the distance from `truth`, to 0 at `reach_m` and below 0 after
-/// it; as given also with the difference in heading. The compass always finds the true heading.
+/// it; as given, and along a curve, also with the difference in heading. The compass always finds
+/// the true heading.
 class FakeScoreSource final : public ScoreSource {
  public:
   Pose2 truth;
@@ -43,6 +44,11 @@ class FakeScoreSource final : public ScoreSource {
           static_cast<std::int32_t>(std::lround(1.0e6 * std::max(-1.0, similarity))));
       if (compass) {
         batch.best_heading.push_back(static_cast<std::uint8_t>(PoseGrid::heading(truth.yaw_rad)));
+      }
+      for (int k = 0; request.whole_curve && k < PoseGrid::kHeadings; ++k) {
+        const double turn_rad = std::abs(wrap_angle(PoseGrid::heading_yaw_rad(k) - truth.yaw_rad));
+        batch.curve.push_back(
+            static_cast<std::int32_t>(std::lround(1.0e6 * std::max(-1.0, similarity - turn_rad))));
       }
     }
     return batch;

@@ -120,13 +120,13 @@ TEST_F(LocalizeProgramsTest, InProcessAndRemoteWriteTheSameBytesForAnyNumberOfTh
   const Drive drive = simulate("log", 1, 8);
   const auto server = serve();
   for (const char* heading : {"odometry", "compass"}) {
-    for (const bool global : {false, true}) {
+    for (const char* start : {"known", "sampled", "dense"}) {
       Arguments common{"localize", "--log", drive.log, "--seed", "7", "--heading", heading};
       common.insert(common.end(), {"--particles", "300", "--timeout", "60"});
-      if (global) {
-        common.emplace_back("--global");
-      } else {
+      if (start == std::string("known")) {
         common.insert(common.end(), {"--init", drive.known_start()});
+      } else {
+        common.insert(common.end(), {"--global", start});
       }
       Arguments remote = common;
       remote.insert(

@@ -220,5 +220,58 @@ TEST(RunOutputsTest, ParticlesCarryTheReportedHeading) {
             "x_m,y_m,yaw_deg,weight\n1.000000,2.000000,180.0000,0.250000000\n");
 }
 
+/// The cells of 8 x 8 m around the map's origin.
+std::vector<CellIndex> hall() {
+  std::vector<CellIndex> cells;
+  for (int iy = -40; iy < 40; ++iy) {
+    for (int ix = -40; ix < 40; ++ix) cells.push_back({ix, iy});
+  }
+  return cells;
+}
+
+TEST(DenseStartTest, TheFirstAnsweredObservationFindsTheRobot) {
+  FakeScoreSource source;
+  source.truth = {2.33, -1.72, 0.9};
+  Rng rng(1, "initialization");
+  const auto anywhere = localization::uniform_particles(hall(), 300, rng);
+  Localizer robot(
+      {}, source, std::make_shared<OdometryMotionModel>(OdometryMotionConfig{}), anywhere, 5);
+  robot.search(hall());
+
+  // Nothing seen, then nobody answers, then nothing fits: the search waits.
+  EXPECT_EQ(robot.advance({0.0, {}, std::nullopt})->state, FrameState::kUnseen);
+  source.broken = Error{ErrorCode::kUnavailable, "away"};
+  EXPECT_EQ(robot.advance({1.0, {}, something()})->state, FrameState::kStale);
+  source.broken.reset();
+  source.reach_m = 1e-3;
+  source.truth.x_m += 100.0;
+  EXPECT_EQ(robot.advance({2.0, {}, something()})->state, FrameState::kUninformative);
+  EXPECT_FALSE(robot.dense_start());
+  source.reach_m = 3.0;
+  source.truth.x_m -= 100.0;
+
+  source.calls = 0;
+  Observation seen = something();
+  seen.stamp_s = 3.0;
+  const auto report = robot.advance({3.0, {}, seen});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->state, FrameState::kScored);
+  EXPECT_EQ(source.calls, 7);  // 6400 cells, and no particle is weighed by the same image again
+  EXPECT_EQ(robot.particles().size(), 300U);
+  EXPECT_LT(distance_m(report->estimate.map_from_robot, source.truth), 0.15);
+  EXPECT_NEAR(report->estimate.map_from_robot.yaw_rad, 0.9, 0.05);
+  EXPECT_NEAR(report->effective_sample_size, 300.0, 1e-6);
+  ASSERT_TRUE(robot.dense_start());
+  EXPECT_EQ(robot.dense_start()->stamp_s, 3.0);
+  EXPECT_EQ(robot.dense_start()->cells, 6400U);
+  ASSERT_EQ(robot.dense_start()->modes.size(), 1U);
+  EXPECT_LT(distance_m(robot.dense_start()->modes[0].map_from_robot, source.truth), 0.1);
+
+  // From then on the filter is as ever.
+  source.calls = 0;
+  EXPECT_EQ(robot.advance({4.0, {}, something()})->state, FrameState::kScored);
+  EXPECT_EQ(source.calls, 1);
+}
+
 }  // namespace
 }  // namespace semview::robot

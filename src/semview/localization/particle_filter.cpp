@@ -29,6 +29,11 @@ ParticleFilter::ParticleFilter(const ParticleFilterConfig& config,
   SEMVIEW_CHECK(!particles_.empty() && motion_ != nullptr);
 }
 
+void ParticleFilter::restart(ParticleSet particles) {
+  SEMVIEW_CHECK(!particles.empty());
+  particles_ = std::move(particles);
+}
+
 void ParticleFilter::predict(const Pose2& before_from_after) {
   ++predictions_;
   Rng rng(seed_, "motion", predictions_);

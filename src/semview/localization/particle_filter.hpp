@@ -43,6 +43,9 @@ class ParticleFilter {
 
   const ParticleSet& particles() const { return particles_; }
 
+  /// Goes on from another belief; `particles` as in the constructor.
+  void restart(ParticleSet particles);
+
   /// Moves every particle by what odometry measured since the last call.
   void predict(const Pose2& before_from_after);
 
