@@ -59,6 +59,14 @@ TEST(ColumnsTest, RunsAreThoseOfThePixels) {
     EXPECT_FALSE(labels.has_ranges());
     EXPECT_TRUE(ranges.has_ranges());
     EXPECT_EQ(labels, ColumnView::from_labels(ranges.to_labels()));
+    const Panorama pixels = render_panorama(scene, request);
+    EXPECT_EQ(pixels.labels, ranges.to_labels());
+    const RangeImage rebuilt_m = ranges.to_ranges(request.camera);
+    for (int r = 0; r < request.camera.rows; ++r) {
+      for (int c = 0; c < request.camera.columns; ++c) {
+        ASSERT_FLOAT_EQ(pixels.ranges_m.at(r, c), rebuilt_m.at(r, c));
+      }
+    }
     // Canonical, as whoever stores or receives them checks.
     EXPECT_TRUE(ColumnView::from_runs(request.camera.rows,
                                       {ranges.first_run().begin(), ranges.first_run().end()},

@@ -84,6 +84,10 @@ ColumnCamera::ColumnCamera(const PanoramaCamera& camera) : camera_(camera), rows
     cosines_.push_back(std::cos(camera.azimuth_rad(c)));
     sines_.push_back(std::sin(camera.azimuth_rad(c)));
   }
+  for (int r = 0; r < camera.rows; ++r) {
+    secants_.push_back(static_cast<float>(1.0 / std::cos(camera.elevation_rad(r))));
+    cosecants_.push_back(static_cast<float>(1.0 / std::sin(camera.elevation_rad(r))));
+  }
   const std::size_t padded =
       (cosines_.size() + ColumnRays::kPadding - 1) / ColumnRays::kPadding * ColumnRays::kPadding;
   cosines_.resize(padded, cosines_.back());

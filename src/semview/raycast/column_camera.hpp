@@ -18,6 +18,10 @@ class ColumnCamera {
 
   const PanoramaCamera& camera() const { return camera_; }
   const RowFinder& rows() const { return rows_; }
+  /// Range a metre of distance of an upright surface, row by row, and a metre of height of a level
+  /// one.
+  const std::vector<float>& secants() const { return secants_; }
+  const std::vector<float>& cosecants() const { return cosecants_; }
 
   /// An eye nearer than 0.1 mm to a pixel's edge stands on the side that a ray looks to, as
   /// Embree's rays begin that much behind the eye.
@@ -28,6 +32,8 @@ class ColumnCamera {
   RowFinder rows_;
   std::vector<double> cosines_;  // of each column's azimuth
   std::vector<double> sines_;
+  std::vector<float> secants_;  // of each row's elevation
+  std::vector<float> cosecants_;
 };
 
 }  // namespace semview::raycast
