@@ -2,60 +2,13 @@
 #include "semview/raycast/column_walk.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "semview/raycast/column_walk.cpp"
 #include <hwy/foreach_target.h>  // compiles what follows once a target
 #include <hwy/highway.h>
 
-#ifndef SEMVIEW_COLUMN_WALK_SHARED
-#define SEMVIEW_COLUMN_WALK_SHARED
-namespace semview::raycast {
-
-// A ray along an axis never leaves a cell across the other; the distance stays finite.
-constexpr float kLeastSlope = 1e-30F;
-// Added to a number below 2^22, it leaves that, rounded to a whole one, in the lowest bits.
-constexpr float kRounding = 12582912.0F;
-constexpr std::uint32_t kProfileBits = 0xFF00;
-// Of steps, whose changes of profile one word a lane remembers.
-constexpr std::size_t kBlock = 32;
-
-/// What the lanes of a packet met in each of their steps. Keeps its memory.
-struct WalkLog {
-  std::vector<float> distances_m;     // step by step, lane by lane
-  std::vector<std::int32_t> cells;    // the same; the high halves are not said
-  std::vector<std::int32_t> changes;  // block by block, lane by lane: in which steps it changed
-
-  void make_room(std::size_t blocks, std::size_t lanes) {
-    if (changes.size() >= blocks * lanes) return;
-    distances_m.resize(2 * blocks * kBlock * lanes);
-    cells.resize(2 * blocks * kBlock * lanes);
-    changes.resize(2 * blocks * lanes);
-  }
-
-  void append_crossings(std::size_t blocks,
-                        std::size_t lane,
-                        std::size_t lanes,
-                        std::vector<Crossing>& crossings) const {
-    for (std::size_t block = 0; block < blocks; ++block) {
-      auto bits = static_cast<std::uint32_t>(changes[block * lanes + lane]);
-      for (; bits != 0; bits &= bits - 1) {
-        const std::size_t step = block * kBlock + static_cast<std::size_t>(std::countr_zero(bits));
-        const std::size_t at = step * lanes + lane;
-        const auto profile = (static_cast<std::uint32_t>(cells[at]) & kProfileBits) >> 8;
-        crossings.push_back({distances_m[at], profile});
-      }
-    }
-  }
-};
-
-using WalkLogs = std::array<WalkLog, 2>;
-
-}  // namespace semview::raycast
-#endif
+#include "semview/raycast/walk_log.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace semview::raycast::HWY_NAMESPACE {
@@ -304,91 +257,13 @@ namespace {
 
 HWY_EXPORT(walk);
 
-/// One axis of one ray.
-struct RayAxis {
-  float slope;
-  float inverse;
-  float behind;
-  bool falls;
-  std::int32_t eye_cell;
-  std::int32_t cell;
-
-  RayAxis(const EyeOnAxis& eye, float signed_slope, std::int32_t begin)
-      : slope(std::abs(signed_slope)),
-        inverse(1.0F / std::max(slope, kLeastSlope)),
-        falls(signed_slope < 0.0F),
-        cell(begin) {
-    behind = eye.behind[falls ? 1 : 0];
-    eye_cell = eye.cell[falls ? 1 : 0];
-  }
-
-  /// Counted with the border.
-  std::int64_t place() const { return eye_cell + 1 + (falls ? -cell : cell); }
-  float leaves(std::int32_t end) const { return (static_cast<float>(end) - behind) * inverse; }
-  std::int32_t at(float distance_m, std::int32_t end) const {
-    const float there = distance_m * slope + (behind - 0.5F);
-    const auto rounded =
-        std::bit_cast<std::int32_t>(there + kRounding) - std::bit_cast<std::int32_t>(kRounding);
-    return std::max(std::min(rounded, end - 1), cell);
-  }
-};
-
-void walk_ray(const ColumnGrid& grid,
-              const ColumnRays& rays,
-              std::size_t ray,
-              std::vector<Crossing>& crossings) {
-  RayAxis u(rays.u, rays.slope_u[ray], rays.begin_u[ray]);
-  RayAxis v(rays.v, rays.slope_v[ray], rays.begin_v[ray]);
-  const std::uint16_t* plane =
-      grid.cells.data() + std::ptrdiff_t{ColumnGrid::plane(u.falls, v.falls)} * grid.plane_size();
-  float distance_m = rays.begins_at_m[ray];
-  if (distance_m > 0.0F) crossings.push_back({});
-  for (std::uint32_t profile = ~0U;;) {
-    const std::uint32_t cell = plane[v.place() * grid.stride() + u.place()];
-    const std::uint32_t here = (cell & kProfileBits) >> 8;
-    if (here != profile) crossings.push_back({distance_m, here});
-    profile = here;
-    auto reach = static_cast<std::int32_t>(cell & ColumnGrid::kReachMask);
-    if (rays.through_closed && here != 0) reach = std::max(reach, 1);
-    if (reach == 0) return;
-    const std::int32_t end_u = u.cell + reach;
-    const std::int32_t end_v = v.cell + reach;
-    const float leaves_u = u.leaves(end_u);
-    const float leaves_v = v.leaves(end_v);
-    distance_m = std::min(leaves_u, leaves_v);
-    if (leaves_u <= leaves_v) {
-      u.cell = end_u;
-      v.cell = v.at(distance_m, end_v);
-    } else {
-      u.cell = u.at(distance_m, end_u);
-      v.cell = end_v;
-    }
-  }
-}
-
-void clear(const ColumnRays& rays, Crossings& crossings) {
-  crossings.begin.resize(rays.count);
-  crossings.end.resize(rays.count);
-  crossings.all.clear();
-  crossings.ends_closed = !rays.through_closed;
-}
-
 }  // namespace
 
 void walk_columns(const ColumnGrid& grid, const ColumnRays& rays, Crossings& crossings) {
   // The memory of a thread is kept from view to view.
   static thread_local WalkLogs logs;
-  clear(rays, crossings);
+  crossings.clear(rays);
   HWY_DYNAMIC_DISPATCH(walk)(grid, rays, logs, crossings);
-}
-
-void walk_columns_singly(const ColumnGrid& grid, const ColumnRays& rays, Crossings& crossings) {
-  clear(rays, crossings);
-  for (std::size_t ray = 0; ray < rays.count; ++ray) {
-    crossings.begin[ray] = static_cast<std::uint32_t>(crossings.all.size());
-    walk_ray(grid, rays, ray, crossings.all);
-    crossings.end[ray] = static_cast<std::uint32_t>(crossings.all.size());
-  }
 }
 
 }  // namespace semview::raycast

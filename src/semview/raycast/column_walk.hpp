@@ -63,10 +63,23 @@ struct Crossings {
   std::vector<Crossing> all;
   bool ends_closed = false;  // a walk that ended over slabs ended at a closed profile
 
+  void clear(const ColumnRays& rays) {
+    begin.resize(rays.count);
+    end.resize(rays.count);
+    all.clear();
+    ends_closed = !rays.through_closed;
+  }
   std::span<const Crossing> of(std::size_t ray) const {
     return std::span(all).subspan(begin[ray], end[ray] - begin[ray]);
   }
 };
+
+// A ray along an axis never leaves a cell across the other; the distance stays finite.
+inline constexpr float kLeastSlope = 1e-30F;
+// Added to a number below 2^22, it leaves that, rounded to a whole one, in the lowest bits.
+inline constexpr float kRounding = 12582912.0F;
+// Of a cell.
+inline constexpr std::uint32_t kProfileBits = 0xFF00;
 
 /// @param crossings  what it held before is lost, its memory is used again.
 /// @threads Safe to call from several threads on one grid.
