@@ -18,7 +18,7 @@ namespace semview::raycast {
 namespace {
 
 const benchmark::Subject& office() {
-  static const auto subject = *benchmark::prepare_subject("office", *benchmark::draw_office({}));
+  static const auto subject = *benchmark::prepare_subject("office", benchmark::OfficePlan{});
   return *subject;
 }
 

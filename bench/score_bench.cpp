@@ -20,7 +20,7 @@
 #include <fmt/format.h>
 #include <hwy/aligned_allocator.h>
 
-#include "read_bytes.hpp"
+#include "semview/benchmark/read_bytes.hpp"
 #include "semview/core/random.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -77,10 +77,10 @@ struct PixelWeights {
     const auto index = [](const auto& names, std::string_view name) {
       return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     };
-    for (std::size_t o = 1; o <= classes.size(); ++o) {
+    for (std::size_t o = 1; o <= static_cast<std::size_t>(classes.size()); ++o) {
       const std::size_t row =
           index(weights.observed_names(), classes.name(static_cast<ClassId>(o)));
-      for (std::size_t m = 0; m <= classes.size(); ++m) {
+      for (std::size_t m = 0; m <= static_cast<std::size_t>(classes.size()); ++m) {
         const std::size_t column =
             index(weights.map_names(),
                   m == 0 ? similarity::kNoneColumn : classes.name(static_cast<ClassId>(m)));
@@ -257,7 +257,7 @@ int run(const std::string& folder) {
     whole.round(views);
     loops.round(observation.labels);
     narrow.round(views);
-    read.run([&] { sum += read_bytes({memory.get(), words}, bytes); });
+    read.run([&] { sum += benchmark::read_bytes({memory.get(), words}, bytes); });
     build.run([&] { sum += static_cast<std::uint64_t>(prepare(observation).weight_scale()); });
   }
   const bool equal = std::ranges::equal(loops.sums, std::span(whole.sums).first(kSlowCells));

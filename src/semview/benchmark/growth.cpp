@@ -62,8 +62,7 @@ std::vector<Case> cases_of(bool quick) {
 }
 
 Result<GrowthPoint> measure(const Case& one, const GrowthConfig& config) {
-  SEMVIEW_TRY(map::SemanticMap office, draw_office(one.plan));
-  SEMVIEW_TRY(const auto subject, prepare_subject("office", std::move(office)));
+  SEMVIEW_TRY(const auto subject, prepare_subject("office", one.plan));
   const PanoramaCamera camera = camera_of(one.columns);
   const std::size_t views = config.quick ? 2 : 12;
   SEMVIEW_TRY(const detail::ScoringTask task, detail::scoring_task(*subject, camera, views));

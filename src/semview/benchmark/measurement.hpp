@@ -21,7 +21,8 @@ struct Extent {
   std::size_t cells = 64;             ///< scored a pass
   std::size_t slow_cells = 4;         ///< of an alternative hundreds of times as slow
   std::size_t floor_cells = 100'000;  ///< of the posterior of a whole floor
-  std::size_t stored_cells = 512;     ///< coded and stored
+  std::size_t stored_cells = 512;     ///< coded
+  std::size_t precomputed_cells = 4096;
   TurnsConfig turns = {};
 };
 
@@ -51,6 +52,7 @@ struct RowKind {
 std::vector<RowKind> cast_rows();
 std::vector<RowKind> score_rows();
 std::vector<RowKind> storage_rows();
+std::vector<RowKind> site_rows();
 
 Goal at_least(double ratio);
 

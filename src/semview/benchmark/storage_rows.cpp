@@ -52,6 +52,18 @@ Status stored_bytes(const Circumstances& in, Row& row) {
   return {};
 }
 
+/// What the memory tier holds of a view.
+Status held_bytes(const Circumstances& in, Row& row) {
+  const std::vector<ColumnView> views = cast_views(in);
+  double ours = 0.0;
+  for (const ColumnView& view : views) ours += static_cast<double>(view.byte_size());
+  ours /= static_cast<double>(views.size());
+  const double pixels = static_cast<double>(in.camera.columns) * in.camera.rows;
+  row.found = Finding{
+      "B", ours, ours, pixels, pixels, pixels / ours, pixels / ours, 1, "the scorer's form"};
+  return {};
+}
+
 }  // namespace
 
 std::vector<RowKind> storage_rows() {
@@ -62,6 +74,7 @@ std::vector<RowKind> storage_rows() {
        Plans::kAll,
        true,
        stored_bytes},
+      {"held", "memory of a view as runs; as pixels", {}, Plans::kAll, true, held_bytes},
   };
 }
 

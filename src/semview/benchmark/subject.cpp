@@ -50,7 +50,7 @@ raycast::PanoramaRequest Subject::request(const CellIndex& cell,
   return request;
 }
 
-Result<std::shared_ptr<const Subject>> prepare_subject(std::string name, map::SemanticMap map) {
+static Result<std::shared_ptr<Subject>> prepare(std::string name, map::SemanticMap map) {
   auto subject = std::make_shared<Subject>();
   subject->name = std::move(name);
   subject->map = std::make_shared<const map::SemanticMap>(std::move(map));
@@ -78,6 +78,18 @@ Result<std::shared_ptr<const Subject>> prepare_subject(std::string name, map::Se
                 fmt::format("{}: no free cell to look from", subject->name));
   }
   return subject;
+}
+
+Result<std::shared_ptr<const Subject>> prepare_subject(std::string name, map::SemanticMap map) {
+  SEMVIEW_TRY(std::shared_ptr<const Subject> subject, prepare(std::move(name), std::move(map)));
+  return subject;
+}
+
+Result<std::shared_ptr<const Subject>> prepare_subject(std::string name, const OfficePlan& office) {
+  SEMVIEW_TRY(map::SemanticMap map, draw_office(office));
+  SEMVIEW_TRY(const std::shared_ptr<Subject> subject, prepare(std::move(name), std::move(map)));
+  subject->office = office;
+  return std::shared_ptr<const Subject>(subject);
 }
 
 PanoramaCamera camera_of(int columns) {

@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "semview/benchmark/office_plan.hpp"
 #include "semview/core/result.hpp"
 #include "semview/geometry/panorama_camera.hpp"
 #include "semview/geometry/pose_grid.hpp"
@@ -22,7 +24,8 @@ namespace semview::benchmark {
 inline constexpr double kEyeHeight_m = 1.2;
 
 struct Subject {
-  std::string name;  ///< for people: "office 5 cm"
+  std::string name;                  ///< for people: "office 5 cm"
+  std::optional<OfficePlan> office;  ///< what it was drawn by, if it was generated
   std::shared_ptr<const map::SemanticMap> map;
   map::TriangleMesh mesh;
   std::shared_ptr<const raycast::Scene> scene;
@@ -43,6 +46,7 @@ struct Subject {
 
 /// @errors kInvalidArgument: a map that cannot be cast, or with no free cell.
 Result<std::shared_ptr<const Subject>> prepare_subject(std::string name, map::SemanticMap map);
+Result<std::shared_ptr<const Subject>> prepare_subject(std::string name, const OfficePlan& office);
 
 /// Panoramas of -45° to 45° with four times as many columns as rows.
 PanoramaCamera camera_of(int columns);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "read_bytes.hpp"
+#include "semview/benchmark/read_bytes.hpp"
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bench/read_bytes.cpp"
+#define HWY_TARGET_INCLUDE "semview/benchmark/read_bytes.cpp"
 #include <hwy/foreach_target.h>  // compiles what follows once a target
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace semview::HWY_NAMESPACE {
+namespace semview::benchmark::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -29,11 +29,11 @@ HWY_ATTR std::uint64_t read_words(const std::uint64_t* memory, std::size_t count
   return hn::GetLane(hn::Xor(hn::Xor(a, b), hn::Xor(c, d)));
 }
 
-}  // namespace semview::HWY_NAMESPACE
+}  // namespace semview::benchmark::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace semview {
+namespace semview::benchmark {
 
 HWY_EXPORT(read_words);
 
@@ -47,5 +47,5 @@ std::uint64_t read_bytes(std::span<const std::uint64_t> memory, std::size_t byte
   return sum;
 }
 
-}  // namespace semview
+}  // namespace semview::benchmark
 #endif  // HWY_ONCE

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <span>
 
-namespace semview {
+namespace semview::benchmark {
 
 /// Reads `bytes` bytes from `memory`, in order and from its beginning again when it ends, with the
 /// widest vectors of this machine. `memory` is aligned to 64 bytes and a multiple of 256.
 /// @return what came of them, so that they must be read
 std::uint64_t read_bytes(std::span<const std::uint64_t> memory, std::size_t bytes);
 
-}  // namespace semview
+}  // namespace semview::benchmark
