@@ -31,6 +31,8 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
   verb.add_option("--elevation", options.elevation_deg, "Lowest and highest elevation, degrees")
       ->type_name("MIN,MAX")
       ->capture_default_str();
+  verb.add_flag(
+      "--ranges", options.ranges, "Views of cells carry ranges, and are stored with them");
   verb.add_option("--cache", options.cache_directory, "Keep views in this directory")
       ->type_name("DIR");
   verb.add_option("--cache-limit",
@@ -52,6 +54,7 @@ Status check_no_site_options(const CLI::App& verb) {
                              "--columns",
                              "--rows",
                              "--elevation",
+                             "--ranges",
                              "--cache",
                              "--cache-limit",
                              "--nearest-colour"}) {
@@ -73,6 +76,7 @@ Result<service::SiteConfig> site_config(const SiteOptions& options) {
   config.profile.camera.elevation_min_rad = rad_from_deg(elevation_deg[0]);
   config.profile.camera.elevation_max_rad = rad_from_deg(elevation_deg[1]);
   config.profile.eye_height_m = options.eye_height_m;
+  config.profile.ranges = options.ranges;
   config.engine = options.engine;
   if (!options.cache_directory.empty()) config.cache_directory = options.cache_directory;
   SEMVIEW_TRY(config.cache_limit_bytes, parse_byte_size("--cache-limit", options.cache_limit));

@@ -23,13 +23,15 @@ struct SiteOptions {
   int columns = 360;
   int rows = 90;
   std::string elevation_deg = "-45,45";
+  bool ranges = false;
   std::string cache_directory;
   std::string cache_limit = "0";  ///< bytes, or a number with K, M, G or T (powers of 1024)
   std::size_t threads = 0;
   bool nearest_colour = false;
 };
 
-/// Adds MAP, --engine, --eye-height, --columns, --rows, --elevation, --cache, --cache-limit,
+/// Adds MAP, --engine, --eye-height, --columns, --rows, --elevation, --ranges, --cache,
+/// --cache-limit,
 /// --threads and --nearest-colour. `map_required` is false for verbs that may ask a server instead.
 /// `options` must outlive the parse.
 void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required = true);

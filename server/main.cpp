@@ -42,6 +42,7 @@ struct CommandLine {
   std::optional<std::size_t> threads;
   std::optional<double> eye_height_m;
   std::optional<std::string> engine;
+  bool ranges = false;
   bool nearest_colour = false;
 };
 
@@ -70,6 +71,7 @@ void add_options(CLI::App& app, CommandLine& line) {
   app.add_option("--threads", line.threads, "workers (default: one a core)");
   app.add_option("--eye-height", line.eye_height_m, "camera above the ground in m (default 1.2)");
   app.add_option("--engine", line.engine, "auto or embree");
+  app.add_flag("--ranges", line.ranges, "views of the grid carry ranges (in a cache of their own)");
   app.add_flag("--nearest-colour", line.nearest_colour, "accept plans with smoothed edges");
 }
 
@@ -93,6 +95,7 @@ Result<Options> options_of(const CommandLine& line) {
   if (line.threads) options.site.threads = *line.threads;
   if (line.eye_height_m) options.site.profile.eye_height_m = *line.eye_height_m;
   if (line.engine) options.site.engine = *line.engine;
+  options.site.profile.ranges = options.site.profile.ranges || line.ranges;
   options.site.nearest_colour = options.site.nearest_colour || line.nearest_colour;
   options.server.workers = options.site.threads;
   if (options.maps.empty()) {

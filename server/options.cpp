@@ -79,7 +79,8 @@ Status read_maps(const io::YamlNode& node,
 }
 
 Status read_profile(const io::YamlNode& node, ViewProfile* profile) {
-  SEMVIEW_TRY_STATUS(node.expect_keys({"columns", "rows", "elevation_deg", "eye_height"}));
+  SEMVIEW_TRY_STATUS(
+      node.expect_keys({"columns", "rows", "elevation_deg", "eye_height", "ranges"}));
   SEMVIEW_TRY_STATUS(read_count(node, "columns", &profile->camera.columns, 1));
   SEMVIEW_TRY_STATUS(read_count(node, "rows", &profile->camera.rows, 1));
   if (const auto elevation = node.find("elevation_deg")) {
@@ -88,6 +89,7 @@ Status read_profile(const io::YamlNode& node, ViewProfile* profile) {
     profile->camera.elevation_max_rad = rad_from_deg(limits[1]);
   }
   SEMVIEW_TRY(profile->eye_height_m, node.number_or("eye_height", profile->eye_height_m));
+  SEMVIEW_TRY(profile->ranges, node.boolean_or("ranges", profile->ranges));
   if (Status status = validate(*profile); !status) return node.error(status.error().message);
   return {};
 }

@@ -34,17 +34,32 @@ ColumnView turned(const ColumnView& view, int heading) {
   return view.arranged(columns);
 }
 
-v1::View encode(const ColumnView* view, int heading, const ViewEncoding& encoding) {
-  v1::View wire;
-  if (view == nullptr) {
-    wire.set_no_view(true);
-  } else if (encoding.packed) {
-    wire.mutable_runs()->set_packed(
-        protocol::pack_runs(heading == 0 ? *view : turned(*view, heading)));
-  } else if (encoding.runs) {
-    *wire.mutable_runs() = protocol::to_wire(heading == 0 ? *view : turned(*view, heading));
+void encode_runs(const ColumnView& view, bool packed, v1::RunPanorama* wire) {
+  if (packed) {
+    wire->set_packed(protocol::pack_runs(view));
+    wire->set_planes(protocol::pack_planes(view));
   } else {
-    wire.set_labels(protocol::to_bytes(view->to_labels(heading).pixels()));
+    *wire = protocol::to_wire(view);
+  }
+}
+
+v1::View encode(const ColumnView& view,
+                const PanoramaCamera& camera,
+                int heading,
+                const ViewEncoding& encoding) {
+  v1::View wire;
+  if (encoding.runs && view.has_ranges() && !encoding.ranges) {
+    const ColumnView labels = view.without_ranges();
+    encode_runs(
+        heading == 0 ? labels : turned(labels, heading), encoding.packed, wire.mutable_runs());
+  } else if (encoding.runs) {
+    encode_runs(heading == 0 ? view : turned(view, heading), encoding.packed, wire.mutable_runs());
+  } else {
+    wire.set_labels(protocol::to_bytes(view.to_labels(heading).pixels()));
+    if (encoding.ranges) {
+      const RangeImage ranges_m = view.to_ranges(camera, heading);
+      wire.mutable_ranges_m()->Add(ranges_m.pixels().begin(), ranges_m.pixels().end());
+    }
   }
   return wire;
 }
@@ -73,7 +88,12 @@ Status view_cells(Viewing& viewing, std::size_t begin, std::size_t end) {
               request.site->views().views(std::span(request.cells).subspan(begin, end - begin)));
   for (std::size_t i = begin; i < end; ++i) {
     for (const auto& [view, heading] : request.uses[i]) {
-      viewing.views[view] = encode(batch.views[i - begin].get(), heading, request.encoding);
+      if (const SharedView& found = batch.views[i - begin]) {
+        viewing.views[view] =
+            encode(*found, request.site->profile().camera, heading, request.encoding);
+      } else {
+        viewing.views[view].set_no_view(true);
+      }
     }
   }
   const std::lock_guard lock(viewing.mutex);

@@ -18,15 +18,16 @@ namespace semview::server {
 namespace {
 
 /// @errors kInvalidArgument, kResourceExhausted: what was asked cannot be sent.
-Result<ViewEncoding> encoding_of(const v1::GetViewsRequest& wire) {
+Result<ViewEncoding> encoding_of(const v1::GetViewsRequest& wire, const ViewProfile& profile) {
   const bool grid = wire.has_cells() || wire.has_poses();
   if (wire.encoding() < v1::VIEW_ENCODING_UNSPECIFIED ||
       wire.encoding() > v1::VIEW_ENCODING_PIXELS) {
     return protocol::wrong_field(
         "encoding", fmt::format("{} is not an encoding", static_cast<int>(wire.encoding())));
   }
-  if (grid && wire.with_ranges()) {
-    return protocol::wrong_field("with_ranges", "views of the grid are stored without ranges");
+  if (grid && wire.with_ranges() && !profile.ranges) {
+    return protocol::wrong_field("with_ranges",
+                                 "this server's views of the grid have no ranges (--ranges)");
   }
   if (wire.has_pinholes() && wire.encoding() == v1::VIEW_ENCODING_RUNS) {
     return protocol::wrong_field("encoding", "a pinhole image comes as pixels only");
@@ -173,7 +174,7 @@ Result<ViewRequest> read_view_request(std::shared_ptr<service::Site> site,
                                       const service::Limits& limits) {
   ViewRequest request;
   request.site = std::move(site);
-  SEMVIEW_TRY(request.encoding, encoding_of(wire));
+  SEMVIEW_TRY(request.encoding, encoding_of(wire, request.site->profile()));
   switch (wire.target_case()) {
     case v1::GetViewsRequest::kCells:
     case v1::GetViewsRequest::kPoses:

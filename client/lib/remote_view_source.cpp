@@ -41,6 +41,7 @@ Result<ViewBatch> RemoteViewSource::views(std::span<const CellIndex> cells) {
     request.set_fingerprint(protocol::to_wire(map_.summary.fingerprint));
     protocol::to_wire(some, request.mutable_cells());
     request.set_packed_runs(true);
+    request.set_with_ranges(profile().ranges);
     SEMVIEW_TRY(const auto reply, typed_call<v1::GetViewsReply>(connection_, "GetViews", request));
     SEMVIEW_TRY(ViewBatch batch, protocol::from_wire(reply, some.size()));
     std::move(batch.views.begin(), batch.views.end(), std::back_inserter(all.views));

@@ -107,40 +107,74 @@ def _similarity(sums, scale, pixels):
     return similarity
 
 
-def _labels_of_packed_runs(packed, rows, columns):
-    """docs/protocol.md#packed-runs; a column without runs of its own is the one before."""
+def _expand_packed_runs(packed, planes, rows, columns):
+    """docs/protocol.md#packed-runs; a column without runs of its own is the one before.
+
+    Returns labels and, if there are planes, a and b of each pixel (else None)."""
     number = np.dtype("u1" if rows <= 255 else "<u2")
     counts = np.frombuffer(packed, number, columns).astype(np.int64)
     runs = int(counts.sum())
     ends = np.frombuffer(packed, number, runs, columns * number.itemsize).astype(np.int64)
     labels = np.frombuffer(packed, np.uint8, runs, (columns + runs) * number.itemsize)
     starts = np.r_[0, ends[:-1]] % rows
-    distinct = np.repeat(labels, ends - starts).reshape(-1, rows)
-    return np.ascontiguousarray(distinct[np.cumsum(counts > 0) - 1].T)
+    own_column = np.cumsum(counts > 0) - 1
+
+    def pixels(of_runs):
+        return np.ascontiguousarray(
+            np.repeat(of_runs, ends - starts).reshape(-1, rows)[own_column].T
+        )
+
+    return pixels(labels), _pixels_of_planes(planes, pixels)
 
 
-def _labels_of_runs(runs, rows, columns):
+def _pixels_of_planes(planes, pixels):
+    if not planes:
+        return None
+    a, b = np.frombuffer(planes, "<f4").reshape(-1, 2).T
+    return pixels(a), pixels(b)
+
+
+def _ranges_of_planes(planes, elevation_min_rad, elevation_max_rad):
+    """docs/protocol.md#planes: 1/range = a cos e + b sin e."""
+    a, b = planes
+    rows = a.shape[0]
+    step = (elevation_max_rad - elevation_min_rad) / rows
+    elevation = (elevation_max_rad - (np.arange(rows) + 0.5) * step)[:, np.newaxis]
+    inverse = a * np.cos(elevation) + b * np.sin(elevation)
+    with np.errstate(divide="ignore"):
+        return np.where(inverse > 0.0, 1.0 / inverse, np.inf).astype(np.float32)
+
+
+def _expand_runs(runs, rows, columns):
     """Runs stand column by column: repeating each label by its run's length gives the transpose."""
     ends = np.fromiter(runs.end_rows, np.int64, len(runs.end_rows))
     starts = np.empty_like(ends)
     starts[1:] = ends[:-1]
     starts[:1] = 0
     starts[starts == rows] = 0
-    labels = np.repeat(np.frombuffer(runs.labels, np.uint8), ends - starts)
-    return np.ascontiguousarray(labels.reshape(columns, rows).T)
+
+    def pixels(of_runs):
+        return np.ascontiguousarray(np.repeat(of_runs, ends - starts).reshape(columns, rows).T)
+
+    labels = pixels(np.frombuffer(runs.labels, np.uint8))
+    return labels, _pixels_of_planes(runs.planes, pixels)
 
 
-def _view(wire, rows, columns):
+def _view(wire, rows, columns, elevation_rad=None):
+    """`elevation_rad`: lowest and highest, of panoramas that may come as planes."""
     if wire.no_view:
         return View(None)
+    planes = None
     if wire.runs.packed:
-        labels = _labels_of_packed_runs(wire.runs.packed, rows, columns)
+        labels, planes = _expand_packed_runs(wire.runs.packed, wire.runs.planes, rows, columns)
     elif wire.HasField("runs"):
-        labels = _labels_of_runs(wire.runs, rows, columns)
+        labels, planes = _expand_runs(wire.runs, rows, columns)
     else:
         labels = np.frombuffer(wire.labels, np.uint8).reshape(rows, columns)
     ranges = None
-    if wire.ranges_m:
+    if planes is not None:
+        ranges = _ranges_of_planes(planes, *elevation_rad)
+    elif wire.ranges_m:
         ranges = np.fromiter(wire.ranges_m, np.float32, rows * columns).reshape(rows, columns)
     return View(labels, ranges)
 
@@ -180,7 +214,7 @@ class Map:
     """One map of a server.
 
     id, name, fingerprint (hex), classes (names, the first has id 1), rows and columns of a view,
-    elevation_min_rad, elevation_max_rad, eye_height_m, engine, free_cells: (n, 2) int32 of ix, iy.
+    elevation_min_rad, elevation_max_rad, eye_height_m, ranges (views of cells have them), engine, free_cells: (n, 2) int32 of ix, iy.
     """
 
     def __init__(self, connection, map_id):
@@ -197,6 +231,7 @@ class Map:
         self.elevation_min_rad = reply.profile.elevation_min_rad
         self.elevation_max_rad = reply.profile.elevation_max_rad
         self.eye_height_m = reply.profile.eye_height_m
+        self.ranges = reply.profile.ranges
         self.ground_height_m = reply.ground_height_m
         self.engine = reply.engine
         runs = reply.free_cells
@@ -227,12 +262,12 @@ class Map:
 
         exact   cast at the pose itself; otherwise the stored view of its 10 cm cell, turned to
                 its heading on the 3° grid
-        ranges  also metres along each ray; implies `exact`
+        ranges  also metres along each ray; implies `exact` unless the server keeps ranges
         """
         if len(poses) == 0:
             return []
         request = views_pb2.GetViewsRequest(map_id=self.id, fingerprint=self._fingerprint)
-        if exact or ranges:
+        if exact or (ranges and not self.ranges):
             request.panoramas.poses.CopyFrom(_poses(poses))
         else:
             request.poses.CopyFrom(_poses(poses))
@@ -263,7 +298,8 @@ class Map:
         request.with_ranges = ranges
         request.packed_runs = True
         reply = self._connection.call("GetViews", request, views_pb2.GetViewsReply)
-        return [_view(view, reply.rows, reply.columns) for view in reply.views]
+        elevation_rad = (self.elevation_min_rad, self.elevation_max_rad)
+        return [_view(view, reply.rows, reply.columns, elevation_rad) for view in reply.views]
 
     def set_observation(self, labels, classes=None, weights_csv="") -> "Observation":
         """What a camera saw, to score poses against.

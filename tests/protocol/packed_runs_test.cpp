@@ -5,6 +5,7 @@
 #include <rapidcheck.h>
 
 #include "semview/protocol/view_wire.hpp"
+#include "support/random_view.hpp"
 
 namespace semview::protocol {
 namespace {
@@ -49,6 +50,22 @@ TEST(PackedRunsTest, ViewsComeBackAsTheyWere) {
     const Result<ColumnView> back = unpack_runs(pack_runs(view), rows, view.columns());
     RC_ASSERT(back.has_value());
     RC_ASSERT(*back == view);
+  }));
+}
+
+TEST(PackedRunsTest, PlanesComeBackAsTheyWere) {
+  ASSERT_TRUE(rc::check([] {
+    const int rows = *rc::gen::element(1, 4, 30, 256);
+    const ColumnView view = testing::random_view_with_ranges(
+        *rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange(1, 9), rows);
+    const std::string planes = pack_planes(view);
+    const auto back = unpack_runs(pack_runs(view), rows, view.columns(), planes);
+    RC_ASSERT(back.has_value());
+    RC_ASSERT(*back == view);
+    RC_ASSERT(!unpack_runs(pack_runs(view), rows, view.columns(), planes + "x").has_value());
+    const auto lists = from_wire(to_wire(view), rows, view.columns());
+    RC_ASSERT(lists.has_value());
+    RC_ASSERT(*lists == view);
   }));
 }
 

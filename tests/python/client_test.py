@@ -119,6 +119,19 @@ class ClientTest(unittest.TestCase):
             labels = client._view(reply.views[0], reply.rows, reply.columns).labels
             np.testing.assert_array_equal(labels, view.labels)
 
+    def test_planes_become_ranges(self):
+        wire = views_pb2.View()
+        wire.runs.runs_in_column.extend([2, 1])
+        wire.runs.end_rows.extend([1, 3, 3])
+        wire.runs.labels = bytes([2, 1, 0])
+        wire.runs.planes = np.array([0.5, 0, 0, -0.8, 0, 0], "<f4").tobytes()
+        view = client._view(wire, 3, 2, (-0.6, 0.6))
+        np.testing.assert_array_equal(view.labels, [[2, 0], [1, 0], [1, 0]])
+        expected = [2.0 / np.cos(0.4), np.inf, 1.25 / np.sin(0.4)]
+        np.testing.assert_allclose(view.ranges_m[:, 0], expected, rtol=1e-6)
+        self.assertTrue(np.isinf(view.ranges_m[:, 1]).all())
+        self.assertEqual(view.ranges_m.dtype, np.float32)
+
     def test_a_pose_far_away_has_no_view(self):
         (view,) = self.map.views([(500.0, 500.0, 0.0)])
         self.assertIsNone(view.labels)

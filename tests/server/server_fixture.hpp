@@ -38,6 +38,13 @@ class ServerFixture : public ::testing::Test {
     server_ = *std::move(started);
   }
 
+  /// The same room with other views or another cache.
+  void restart_with(const service::SiteConfig& config) {
+    server_.reset();
+    site_ = open_site(folder_.path() / "room", {}, config);
+    start({});
+  }
+
   v1::SetObservationRequest observation_request() const {
     v1::SetObservationRequest request;
     protocol::to_wire(observation_at(*site_, {2.0, 1.0, 0.5}), &request);

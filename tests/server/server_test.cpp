@@ -193,6 +193,51 @@ TEST_F(ServerTest, GridViewsAreTurnedToTheHeadingOfThePose) {
   }
 }
 
+TEST_F(ServerTest, ViewsOfAGridWithRangesAreStoredAndSentWithThem) {
+  service::SiteConfig config = small_sites();
+  config.profile.ranges = true;
+  config.cache_directory = folder_.path() / "cache";
+  restart_with(config);
+  const CellIndex cell = site_->cells().free_cells()[7];
+  const ViewProfile& profile = site_->profile();
+  const auto cast = site_->exact_panorama(
+      {PoseGrid::center(cell), site_->eye_z_m(profile.eye_height_m), profile.camera, {}});
+  ASSERT_TRUE(cast);
+  RawClient client(server_->endpoint());
+  v1::GetViewsRequest request;
+  request.set_map_id("room");
+  protocol::to_wire(std::vector{cell}, request.mutable_cells());
+  for (const bool packed : {false, true}) {
+    request.set_packed_runs(packed);
+    request.set_with_ranges(true);
+    auto reply = client.get<v1::GetViewsReply>("GetViews", request);
+    const auto view = protocol::from_wire(reply.views(0).runs(), 30, 120);
+    ASSERT_TRUE(view) << view.error().message;
+    ASSERT_TRUE(view->has_ranges());
+    EXPECT_EQ(view->to_labels(), cast->labels);
+    const RangeImage ranges_m = view->to_ranges(profile.camera);
+    for (std::size_t i = 0; i < ranges_m.pixels().size(); ++i) {
+      const float range_m = cast->ranges_m.pixels()[i];
+      if (ranges_m.pixels()[i] == range_m) continue;  // both infinite
+      ASSERT_NEAR(ranges_m.pixels()[i], range_m, 1e-3F) << i;
+    }
+    request.set_with_ranges(false);
+    reply = client.get<v1::GetViewsReply>("GetViews", request);
+    EXPECT_EQ(*protocol::from_wire(reply.views(0).runs(), 30, 120),
+              ColumnView::from_labels(cast->labels));
+  }
+  // What was stored gives the same, pixel for pixel.
+  request.set_encoding(v1::VIEW_ENCODING_PIXELS);
+  request.set_with_ranges(true);
+  const auto fresh = client.get<v1::GetViewsReply>("GetViews", request);
+  restart_with(config);
+  RawClient again(server_->endpoint());
+  const auto stored = again.get<v1::GetViewsReply>("GetViews", request);
+  EXPECT_EQ(stored.origins().disk(), 1U);
+  ASSERT_EQ(stored.views(0).ranges_m_size(), 30 * 120);
+  EXPECT_EQ(stored.views(0).SerializeAsString(), fresh.views(0).SerializeAsString());
+}
+
 TEST_F(ServerTest, ExactPanoramasAndPinholesComeWithRanges) {
   RawClient client(server_->endpoint());
   v1::GetViewsRequest request;

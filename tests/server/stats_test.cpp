@@ -10,12 +10,6 @@ namespace {
 
 class StatsTest : public ServerFixture {
  protected:
-  void restart_with(const service::SiteConfig& config) {
-    server_.reset();
-    site_ = open_site(folder_.path() / "room", {}, config);
-    start({});
-  }
-
   /// Asks for the views of the first `count` free cells.
   void ask_for_views(RawClient& client, std::size_t count) const {
     v1::GetViewsRequest request;

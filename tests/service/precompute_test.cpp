@@ -7,6 +7,7 @@
 
 #include "semview/cache/lmdb_store.hpp"
 #include "semview/map/cell_grid.hpp"
+#include "semview/raycast/panorama_renderer.hpp"
 #include "semview/service/site.hpp"
 #include "service/small_map.hpp"
 
@@ -131,6 +132,34 @@ TEST_F(PrecomputeTest, StopsWhenAskedAndGoesOnWhereItStopped) {
   EXPECT_EQ(run(*site, *plan).progress.cast, 0U) << "nothing is computed again";
   run(*whole, *plan);
   EXPECT_EQ(records_of(*site), records_of(*whole));
+}
+
+TEST_F(PrecomputeTest, RangesAreStoredForAProfileThatAsksAndLieWithinAMillimetre) {
+  run(*open("cache"), *plan_precompute(*open("cache"), {}));
+  SiteConfig config;
+  config.profile.camera = {120, 24, -0.7, 0.7};
+  config.profile.ranges = true;
+  config.cache_directory = folder_.path() / "cache";
+  const auto site = *Site::open(map_, config);
+  const auto plan = plan_precompute(*site, {});
+  EXPECT_EQ(run(*site, *plan).progress.found, 0U) << "labels alone are stored under another key";
+  const std::span<const CellIndex> cells = std::span(plan->cells).first(5);
+  const auto stored = site->tiers().store->get(site->keyspace(), cells);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    ASSERT_NE(stored[i], nullptr);
+    const auto cast = site->exact_panorama({PoseGrid::center(cells[i]),
+                                            site->eye_z_m(config.profile.eye_height_m),
+                                            config.profile.camera,
+                                            {}});
+    ASSERT_TRUE(cast.has_value());
+    EXPECT_EQ(stored[i]->to_labels(), cast->labels);
+    const RangeImage ranges_m = stored[i]->to_ranges(config.profile.camera);
+    for (std::size_t k = 0; k < ranges_m.pixels().size(); ++k) {
+      const float range_m = cast->ranges_m.pixels()[k];
+      if (ranges_m.pixels()[k] == range_m) continue;  // both infinite
+      ASSERT_NEAR(ranges_m.pixels()[k], range_m, 1e-3F) << "cell " << i << ", pixel " << k;
+    }
+  }
 }
 
 TEST_F(PrecomputeTest, TheEstimateStoresNothing) {

@@ -5,6 +5,7 @@
 
 #include "semview/geometry/pose_grid.hpp"
 #include "semview/view/column_view.hpp"
+#include "support/random_view.hpp"
 
 namespace semview {
 namespace {
@@ -56,6 +57,12 @@ RC_GTEST_PROP(ColumnViewProperty, ArrangedColumnsAreThoseNamed, ()) {
   }
   RC_ASSERT(view.rows() == labels.rows());
   RC_ASSERT(view.to_labels() == expected);
+}
+
+RC_GTEST_PROP(ColumnViewProperty, WithoutRangesAreTheSameLabelsInTheFewestRuns, ()) {
+  const ColumnView view = testing::random_view_with_ranges(
+      *rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange(1, 40), *rc::gen::inRange(1, 30));
+  RC_ASSERT(view.without_ranges() == ColumnView::from_labels(view.to_labels()));
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ v1::ViewProfile to_wire(const ViewProfile& profile) {
   wire.set_elevation_min_rad(profile.camera.elevation_min_rad);
   wire.set_elevation_max_rad(profile.camera.elevation_max_rad);
   wire.set_eye_height_m(profile.eye_height_m);
+  wire.set_ranges(profile.ranges);
   return wire;
 }
 
@@ -83,7 +84,8 @@ Result<ViewProfile> from_wire(const v1::ViewProfile& wire, std::string_view fiel
                              static_cast<int>(wire.rows()),
                              wire.elevation_min_rad(),
                              wire.elevation_max_rad()},
-                            wire.eye_height_m()};
+                            wire.eye_height_m(),
+                            wire.ranges()};
   if (Status status = semview::validate(profile); !status) {
     const Error& error = status.error();
     const bool minimum = !(profile.camera.elevation_min_rad >= -kPi / 2.0);

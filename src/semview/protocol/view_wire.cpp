@@ -173,11 +173,12 @@ v1::RunPanorama to_wire(const ColumnView& view) {
     wire.add_end_rows(run.end_row);
     wire.mutable_labels()->push_back(static_cast<char>(run.label));
   }
+  wire.set_planes(planes_to_bytes(view.planes()));
   return wire;
 }
 
 Result<ColumnView> from_wire(const v1::RunPanorama& wire, int rows, int columns) {
-  if (!wire.packed().empty()) return unpack_runs(wire.packed(), rows, columns);
+  if (!wire.packed().empty()) return unpack_runs(wire.packed(), rows, columns, wire.planes());
   const auto runs_count = static_cast<std::size_t>(wire.end_rows_size());
   if (wire.runs_in_column_size() != columns || wire.labels().size() != runs_count) {
     return fail(ErrorCode::kDataLoss,
@@ -205,7 +206,8 @@ Result<ColumnView> from_wire(const v1::RunPanorama& wire, int rows, int columns)
     }
     runs.push_back({static_cast<std::uint16_t>(end_row), static_cast<ClassId>(wire.labels()[i])});
   }
-  return ColumnView::from_runs(rows, std::move(first_run), std::move(runs));
+  SEMVIEW_TRY(std::vector<RunPlane> planes, planes_from_bytes(wire.planes(), runs_count));
+  return ColumnView::from_runs(rows, std::move(first_run), std::move(runs), std::move(planes));
 }
 
 v1::ViewOrigins to_wire(const ViewOrigins& origins) {

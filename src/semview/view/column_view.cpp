@@ -104,6 +104,24 @@ ColumnView ColumnView::assemble(int rows,
   return view;
 }
 
+ColumnView ColumnView::without_ranges() const {
+  if (!has_ranges()) return *this;
+  ColumnView view;
+  view.rows_ = rows_;
+  view.first_run_.reserve(first_run_.size());
+  for (int c = 0; c < columns(); ++c) {
+    const std::size_t first = view.runs_.size();
+    view.first_run_.push_back(static_cast<std::uint32_t>(first));
+    for (const Run& run : column(c)) {
+      if (view.runs_.size() > first && view.runs_.back().label == run.label) view.runs_.pop_back();
+      view.runs_.push_back(run);
+    }
+  }
+  view.first_run_.push_back(static_cast<std::uint32_t>(view.runs_.size()));
+  view.runs_.shrink_to_fit();
+  return view;
+}
+
 ColumnView ColumnView::arranged(std::span<const std::uint32_t> columns) const {
   // Runs are copied this many at once, the next column overwriting what was too much: in no order
   // of columns can a processor foresee how many runs each has.

@@ -70,6 +70,9 @@ class ColumnView {
                                         std::vector<Run> runs,
                                         std::vector<RunPlane> planes = {});
 
+  /// The same labels without planes: neighbouring runs of a class become one.
+  ColumnView without_ranges() const;
+
   /// The view whose column c is column `columns[c]` of this one; each below columns().
   ColumnView arranged(std::span<const std::uint32_t> columns) const;
 
@@ -78,6 +81,12 @@ class ColumnView {
   std::span<const Run> column(int c) const {
     const auto index = static_cast<std::size_t>(c);
     return std::span(runs_).subspan(first_run_[index], first_run_[index + 1] - first_run_[index]);
+  }
+  /// The planes of `column(c)`, or empty.
+  std::span<const RunPlane> column_planes(int c) const {
+    const auto index = static_cast<std::size_t>(c);
+    if (planes_.empty()) return {};
+    return std::span(planes_).subspan(first_run_[index], first_run_[index + 1] - first_run_[index]);
   }
   std::span<const Run> runs() const { return runs_; }
   std::span<const std::uint32_t> first_run() const { return first_run_; }

@@ -49,6 +49,9 @@ Result<ColumnView> decode_view_2(std::span<const std::byte> bytes, const ViewSha
     first_run.push_back(static_cast<std::uint32_t>(runs.size()));
   }
   if (!decoder.finished()) return fail(ErrorCode::kDataLoss, "view: bytes behind the last column");
+  // The memory tier keeps it as it is.
+  runs.shrink_to_fit();
+  planes.shrink_to_fit();
   return ColumnView::from_runs(
       shape.rows, std::move(first_run), std::move(runs), std::move(planes));
 }
@@ -61,12 +64,7 @@ std::vector<std::byte> encode_view(const ColumnView& view) {
   code_shape(encoder, {view.columns(), view.rows(), view.has_ranges()});
   detail::ColumnWalk walk(encoder, view.columns(), view.rows(), view.has_ranges());
   for (int c = 0; c < view.columns(); ++c) {
-    const std::span<const Run> runs = view.column(c);
-    std::span<const RunPlane> planes = view.planes();
-    if (view.has_ranges()) {
-      planes = planes.subspan(view.first_run()[static_cast<std::size_t>(c)], runs.size());
-    }
-    walk.code_column(runs, planes);
+    walk.code_column(view.column(c), view.column_planes(c));
   }
   return std::move(encoder).finish();
 }
