@@ -8,7 +8,6 @@
 // scorer's sums are not those of the integer loop.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <ctime>
@@ -20,13 +19,17 @@
 #include <fmt/format.h>
 #include <hwy/aligned_allocator.h>
 
+#include "semview/benchmark/pixel_scorer.hpp"
 #include "semview/benchmark/read_bytes.hpp"
 #include "semview/core/random.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/observation/dense_posterior.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/service/site.hpp"
+#include "semview/similarity/heat_map.hpp"
 #include "semview/similarity/prepared_observation.hpp"
+#include "semview/similarity/similarity_score_source.hpp"
 
 namespace semview {
 namespace {
@@ -37,6 +40,7 @@ constexpr std::size_t kCells = 256;
 constexpr std::size_t kSlowCells = 8;
 constexpr int kRounds = 20;
 constexpr std::size_t kListed = 8;
+constexpr std::size_t kFloorCells = 8192;
 
 using Sums = std::array<std::int32_t, PoseGrid::kHeadings>;
 
@@ -67,51 +71,6 @@ struct Part {
   }
   double us_a_view(std::size_t views) const { return 1e6 * least_s / static_cast<double>(views); }
 };
-
-/// w[observed][map], the rows that are not scored all 0: the loops need no branch for them.
-template <typename Weight>
-struct PixelWeights {
-  std::vector<Weight> values = std::vector<Weight>(std::size_t{256} * 256, Weight{0});
-
-  PixelWeights(const similarity::WeightMatrix& weights, const ClassTable& classes, double scale) {
-    const auto index = [](const auto& names, std::string_view name) {
-      return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-    };
-    for (std::size_t o = 1; o <= static_cast<std::size_t>(classes.size()); ++o) {
-      const std::size_t row =
-          index(weights.observed_names(), classes.name(static_cast<ClassId>(o)));
-      for (std::size_t m = 0; m <= static_cast<std::size_t>(classes.size()); ++m) {
-        const std::size_t column =
-            index(weights.map_names(),
-                  m == 0 ? similarity::kNoneColumn : classes.name(static_cast<ClassId>(m)));
-        const double weight = weights.weight(0, row, column) * scale;
-        values[o * 256 + m] =
-            static_cast<Weight>(std::is_integral_v<Weight> ? std::round(weight) : weight);
-      }
-    }
-  }
-};
-
-/// Equation (1)'s numerator at every heading, pixel by pixel.
-template <typename Weight, typename Sum>
-void score_pixels(const LabelImage& observed,
-                  const LabelImage& view,
-                  const PixelWeights<Weight>& weights,
-                  std::array<Sum, PoseGrid::kHeadings>& sums) {
-  const int columns = observed.columns();
-  for (int heading = 0; heading < PoseGrid::kHeadings; ++heading) {
-    const int shift = heading * columns / PoseGrid::kHeadings;
-    Sum sum{0};
-    for (int r = 0; r < observed.rows(); ++r) {
-      for (int c = 0; c < columns; ++c) {
-        const int turned = c < shift ? c - shift + columns : c - shift;
-        sum +=
-            weights.values[static_cast<std::size_t>(observed.at(r, c)) * 256 + view.at(r, turned)];
-      }
-    }
-    sums[static_cast<std::size_t>(heading)] = sum;
-  }
-}
 
 /// Seen from between the cells, a little higher than the map's views.
 Observation observe(const service::Site& site, const CellIndex& cell) {
@@ -174,8 +133,8 @@ struct Scorer {
 /// The alternatives' times, on the first views only.
 struct Loops {
   std::vector<LabelImage> pixels = {};
-  PixelWeights<float> real;
-  PixelWeights<std::int32_t> whole;
+  benchmark::PixelWeights<float> real;
+  benchmark::PixelWeights<std::int32_t> whole;
   std::vector<Sums> sums = std::vector<Sums>(kSlowCells);
   std::vector<std::array<float, PoseGrid::kHeadings>> real_sums =
       std::vector<std::array<float, PoseGrid::kHeadings>>(kSlowCells);
@@ -185,12 +144,12 @@ struct Loops {
   void round(const LabelImage& observed) {
     floats.run([&] {
       for (std::size_t i = 0; i < kSlowCells; ++i) {
-        score_pixels(observed, pixels[i], real, real_sums[i]);
+        real_sums[i] = benchmark::score_pixels<float, float>(observed, pixels[i], real);
       }
     });
     integers.run([&] {
       for (std::size_t i = 0; i < kSlowCells; ++i) {
-        score_pixels(observed, pixels[i], whole, sums[i]);
+        sums[i] = benchmark::score_pixels<std::int32_t, std::int32_t>(observed, pixels[i], whole);
       }
     });
   }
@@ -221,6 +180,34 @@ void print(const Scorer& whole, const Scorer& narrow, const Loops& loops, double
              narrow.list.us_a_view(kCells));
 }
 
+/// Whole floors: the heat map and the posterior of cells whose views are in memory.
+struct Floor {
+  std::vector<CellIndex> cells;
+  Part heat = {};
+  Part posterior = {};
+
+  void round(const service::Site& site,
+             const similarity::PreparedObservation& prepared,
+             ScoreSource& source) {
+    heat.run([&] {
+      must(similarity::heat_map(prepared, site.views(), cells, PoseGrid::kHeadings, site.pool()));
+    });
+    posterior.run([&] { must(observation::DensePosterior::compute(source, {}, cells, {})); });
+  }
+  /// Of 100 000 cells, 12 million poses.
+  static double scaled_s(const Part& part, std::size_t cells) {
+    return part.least_s * 1e5 / static_cast<double>(cells);
+  }
+  void print() const {
+    fmt::print(
+        "  100 000 cells, 120 headings   {:9.2f} s as a heat map, {:.2f} s as a posterior (from {} "
+        "cells)\n",
+        scaled_s(heat, cells.size()),
+        scaled_s(posterior, cells.size()),
+        cells.size());
+  }
+};
+
 int run(const std::string& folder) {
   service::SiteConfig config;
   config.threads = 1;
@@ -240,11 +227,18 @@ int run(const std::string& folder) {
   };
   Scorer whole{prepare(observation)};
   Scorer narrow{prepare(seen_60)};
-  Loops loops{.real = {weights, classes, 1.0},
-              .whole = {weights, classes, static_cast<double>(whole.prepared.weight_scale())}};
+  Loops loops{
+      .real = {weights, classes, classes, 1.0},
+      .whole = {weights, classes, classes, static_cast<double>(whole.prepared.weight_scale())}};
   for (std::size_t i = 0; i < kSlowCells; ++i) {
     loops.pixels.push_back(views.views[i]->to_labels(0));
   }
+
+  Floor floor{{free.begin(),
+               free.begin() + static_cast<std::ptrdiff_t>(std::min(kFloorCells, free.size()))}};
+  similarity::SimilarityScoreSource source(site->views(), classes, weights, site->pool());
+  if (!source.set_observation(observation)) return 1;
+  must(site->views().views(floor.cells));
 
   Part build;
   Part read;
@@ -257,6 +251,7 @@ int run(const std::string& folder) {
     whole.round(views);
     loops.round(observation.labels);
     narrow.round(views);
+    if (round % 5 == 0) floor.round(*site, whole.prepared, source);
     read.run([&] { sum += benchmark::read_bytes({memory.get(), words}, bytes); });
     build.run([&] { sum += static_cast<std::uint64_t>(prepare(observation).weight_scale()); });
   }
@@ -267,6 +262,7 @@ int run(const std::string& folder) {
              camera.rows,
              classes.size());
   print(whole, narrow, loops, read.us_a_view(kCells));
+  floor.print();
   fmt::print("  table of the observation      {:9.2f} us, {} kB\n",
              1e6 * build.least_s,
              whole.prepared.byte_size() / 1000);

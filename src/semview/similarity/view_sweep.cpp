@@ -12,7 +12,7 @@ namespace {
 /// About 16 MB of views.
 constexpr std::size_t kChunkCells = 4096;
 /// A third of a millisecond of full compasses: far above the cost of taking a task.
-constexpr std::size_t kGrainCells = 32;
+constexpr std::size_t kGrainCells = 64;
 
 }  // namespace
 
