@@ -13,6 +13,7 @@
 #include "dispatcher.hpp"
 #include "plan.hpp"
 #include "semview/core/hash.hpp"
+#include "semview/core/latency_histogram.hpp"
 #include "semview/core/result.hpp"
 #include "semview/core/thread_pool.hpp"
 #include "semview/protocol/descriptions.hpp"
@@ -21,6 +22,7 @@
 #include "semview/service/map_registry.hpp"
 #include "semview/service/observation_store.hpp"
 #include "semview/service/site.hpp"
+#include "semview/service/weight_matrices.hpp"
 
 namespace semview::server {
 
@@ -39,6 +41,7 @@ struct ServerCounters {
   std::uint64_t in_flight = 0;
   std::uint64_t queued_cells = 0;
   std::map<std::string, std::uint64_t> cells_by_client;
+  std::map<std::string, LatencySummary> latency_by_method;
 };
 
 /// Everything that methods work on. @threads used by all workers at once
@@ -54,6 +57,7 @@ struct Services {
   const service::Limits limits;
   const std::uint64_t epoch;
   service::ObservationStore observations;
+  service::WeightMatrices weights;
   service::Jobs jobs;
   std::uint32_t default_deadline_ms = 0;
   std::uint32_t max_deadline_ms = 0;

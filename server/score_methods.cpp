@@ -77,6 +77,24 @@ std::vector<Chunk> cut_poses(const std::shared_ptr<Scoring>& scoring,
   return chunks;
 }
 
+using SharedWeights = std::shared_ptr<const similarity::WeightMatrix>;
+
+/// @errors those of the matrix, with field `weights_csv`.
+Result<SharedWeights> read_weights(Services& services,
+                                   const std::string& csv,
+                                   const ClassTable& map_classes) {
+  constexpr std::string_view kField = "weights_csv";
+  if (csv.empty()) {
+    return std::make_shared<const similarity::WeightMatrix>(
+        similarity::WeightMatrix::identity(map_classes));
+  }
+  Result<SharedWeights> weights = services.weights.read(csv, kField);
+  if (weights) return weights;
+  Error error = std::move(weights).error();
+  error.field = kField;
+  return fail(std::move(error));
+}
+
 }  // namespace
 
 Result<Plan> plan_set_observation(Services& services, const Request& request) {
@@ -92,19 +110,20 @@ Result<Plan> plan_set_observation(Services& services, const Request& request) {
                                              camera.rows,
                                              camera.columns));
   }
-  const auto weights = wire.weights_csv().empty()
-                           ? Result<similarity::WeightMatrix>(
-                                 similarity::WeightMatrix::identity(site->map().classes))
-                           : similarity::parse_weight_matrix(wire.weights_csv(), "weights_csv");
-  auto prepared = weights ? similarity::PreparedObservation::build(
-                                observation, *weights, site->map().classes, camera)
-                          : Result<similarity::PreparedObservation>(fail(weights.error()));
+  SEMVIEW_TRY(const SharedWeights weights,
+              read_weights(services, wire.weights_csv(), site->map().classes));
+  Result<similarity::PreparedObservation> prepared =
+      similarity::PreparedObservation::build(observation, *weights, site->map().classes, camera);
   if (!prepared) {
-    Error error = prepared.error();
-    const bool in_weights = !weights || error.code == ErrorCode::kFailedPrecondition;
-    if (in_weights || error.field.empty()) error.field = in_weights ? "weights_csv" : "labels";
+    Error error = std::move(prepared).error();
+    if (error.code == ErrorCode::kFailedPrecondition) {
+      error.field = "weights_csv";
+    } else if (error.field.empty()) {
+      error.field = "labels";
+    }
     return fail(std::move(error));
   }
+  // Moved: the tables are a megabyte.
   const auto shared = std::make_shared<const similarity::PreparedObservation>(*std::move(prepared));
   SEMVIEW_TRY(const std::uint64_t number,
               services.observations.add(request.client, {shared, site->id()}, shared->byte_size()));
