@@ -72,17 +72,21 @@ MODULES = {
     "benchmark": Module(SERVICE | {"service", "picture"}, {"zstd", "Highway"}),
     "server": Module(SERVICE | {"service", "protocol"}, {"ZeroMQ", "CLI11"}),
     "client/lib": Module(VIEW | {"similarity", "protocol"}, {"ZeroMQ"}),
+    "client/load": Module(VIEW | {"similarity", "protocol", "client/lib"}, {"ZeroMQ"}),
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
     "cli": Module(SERVICE | {"service", "picture", "localization", "observation", "simulation",
-                             "evaluation", "benchmark", "client/lib", "client/robot"},
+                             "evaluation", "benchmark", "server", "client/lib", "client/load",
+                             "client/robot"},
                   {"CLI11", "nlohmann-json"}),
 }
 PROGRAMS = {"server", "cli"}
 # CMake names of modules that are not `semview::` and the name.
-TARGETS = {"client": "client/lib", "robot": "client/robot", "messages": "protocol"}
+TARGETS = {"client": "client/lib", "load": "client/load", "robot": "client/robot",
+           "messages": "protocol"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
-SYSTEM = re.compile(r"^([a-z0-9_]+|sys/[a-z]+\.h|dlfcn\.h|fcntl\.h|unistd\.h|xmmintrin\.h)$")
+SYSTEM = re.compile(r"^([a-z0-9_]+|sys/[a-z]+\.h|"
+                    r"(arpa/inet|dlfcn|fcntl|ifaddrs|netinet/in|poll|unistd|xmmintrin)\.h)$")
 
 
 def folder_of(root, module):

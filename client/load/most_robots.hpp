@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How many robots a server holds.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "client/load/load_report.hpp"
+#include "semview/core/result.hpp"
+
+namespace semview::client {
+
+/// A server holds a load if at most one cycle in a hundred is late: refused, lost, or answered
+/// later than a robot has use for it.
+bool holds(const LoadReport& report);
+
+struct LoadStep {
+  std::size_t robots = 0;
+  LoadReport report;
+};
+
+struct MostRobots {
+  std::size_t robots = 0;       ///< the most that were held; 0: not even one
+  std::vector<LoadStep> steps;  ///< in the order in which they were tried
+};
+
+/// Doubles or halves from `first` until the limit is between two numbers, then halves the gap until
+/// it is a twentieth; `kMaxSearchSteps` runs at most.
+/// @param run  Loads the server with so many robots.
+/// @errors those of `run`
+Result<MostRobots> find_most_robots(std::size_t first,
+                                    std::size_t most,
+                                    const std::function<Result<LoadReport>(std::size_t)>& run);
+
+inline constexpr std::size_t kMaxSearchSteps = 16;
+
+}  // namespace semview::client
