@@ -136,6 +136,14 @@ Result<Plan> plan_get_stats(Services& services, const Request& request) {
   for (const auto& [client, cells] : counters.cells_by_client) {
     (*reply.mutable_cells_by_client())[client] = cells;
   }
+  for (const auto& [method, latency] : counters.latency_by_method) {
+    v1::MethodLatency& wire_latency = (*reply.mutable_latency_by_method())[method];
+    wire_latency.set_count(latency.count);
+    wire_latency.set_p50_ms(latency.p50_ms);
+    wire_latency.set_p95_ms(latency.p95_ms);
+    wire_latency.set_p99_ms(latency.p99_ms);
+    wire_latency.set_max_ms(latency.max_ms);
+  }
   if (const auto sites = services.maps.sites(); !sites.empty()) {
     // All sites share one cache.
     const service::SharedTiers& tiers = sites.front()->tiers();

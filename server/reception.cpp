@@ -34,7 +34,9 @@ Reception::Reception(const ServerConfig& config,
       admission_(config.limits, config.max_queued_bytes),
       outbox_([this](const Outgoing& reply) { return sockets_->send(reply); },
               config.max_queued_bytes,
-              kMaxUnreadReplies) {}
+              kMaxUnreadReplies) {
+  for (const std::string_view name : method_names()) latencies_[std::string(name)];
+}
 
 void Reception::run(Dispatcher& dispatcher) {
   for (;;) {
@@ -74,6 +76,10 @@ void Reception::count_into(ServerCounters* counters) const {
   counters->malformed = malformed_;
   counters->undelivered = outbox_.undelivered();
   counters->in_flight = admission_.in_flight();
+  for (const auto& [method, histogram] : latencies_) {
+    const LatencySummary summary = histogram.summary();
+    if (summary.count > 0) counters->latency_by_method[method] = summary;
+  }
 }
 
 /// A bounded number, so that a flood of requests does not hold up the replies.
@@ -100,19 +106,25 @@ void Reception::take(Incoming incoming, Dispatcher& dispatcher) {
                                       ? config_.default_deadline_ms
                                       : std::min(header.deadline_ms(), config_.max_deadline_ms);
   const std::size_t bytes = incoming.body.size();
+  const TimePoint received = clock_.now();
+  // Admitted: there is such a method.
+  LatencyHistogram& latencies = latencies_.find(header.method())->second;
   admission_.enter(incoming.client, bytes);
   Request request{incoming.client,
                   header.client_name(),
                   header.method(),
                   std::move(incoming.body),
-                  clock_.now() + std::chrono::milliseconds(budget_ms)};
+                  received + std::chrono::milliseconds(budget_ms)};
   dispatcher.submit(std::move(request),
                     planning_cells(header.method()),
                     [this,
                      client = std::move(incoming.client),
                      delimiter = incoming.delimiter,
                      id = header.request_id(),
-                     bytes](Result<std::string> result) {
+                     bytes,
+                     received,
+                     &latencies](Result<std::string> result) {
+                      latencies.add(clock_.now() - received);
                       finish({reply_of(client, delimiter, id, std::move(result)), bytes});
                     });
 }

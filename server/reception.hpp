@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -15,6 +17,7 @@
 #include "dispatcher.hpp"
 #include "outbox.hpp"
 #include "semview/core/clock.hpp"
+#include "semview/core/latency_histogram.hpp"
 #include "semview/core/result.hpp"
 #include "semview/v1/envelope.pb.h"
 #include "server.hpp"
@@ -51,6 +54,7 @@ class Reception {
     Outgoing reply;
     std::size_t body_bytes = 0;  ///< of the request
   };
+  using Latencies = std::map<std::string, LatencyHistogram, std::less<>>;
   struct Event {
     std::string topic;
     std::string body;
@@ -90,6 +94,7 @@ class Reception {
   std::atomic<std::uint64_t> refused_{0};
   std::atomic<std::uint64_t> expired_{0};
   std::atomic<std::uint64_t> malformed_{0};
+  Latencies latencies_;  ///< one a method; its keys never change
 };
 
 }  // namespace semview::server

@@ -203,7 +203,8 @@ class Server:
 
     def stats(self):
         """Counts since the server's start, as the message GetStatsReply: its `memory` and `disk` tell
-        of the tiers of the view cache, damaged records and whether it still stores among them."""
+        of the tiers of the view cache, damaged records and whether it still stores among them; its
+        `latency_by_method["Score"].p99_ms` and the like of how long requests took."""
         return self.connection.call("GetStats", jobs_pb2.GetStatsRequest(), jobs_pb2.GetStatsReply)
 
     def close(self):

@@ -211,6 +211,8 @@ class ClientTest(unittest.TestCase):
         (view,) = self.map.views([self.pose])
         self.assertIsNotNone(view.labels)
         stats = self.server.stats()
+        self.assertGreater(stats.latency_by_method["GetMap"].count, 0)
+        self.assertGreater(stats.latency_by_method["GetMap"].p99_ms, 0.0)
         self.assertGreater(stats.requests, 0)
         self.assertGreaterEqual(stats.disk.stored, last.cast_cells)
         self.assertEqual((stats.disk.damaged, stats.disk.storing), (0, True))

@@ -77,6 +77,30 @@ TEST_F(StatsTest, ViewsDroppedFromMemoryAreCountedAndWithoutADirectoryThereIsNoD
   EXPECT_LE(reply.memory().bytes(), 10'000U);
 }
 
+TEST_F(StatsTest, MethodsTellHowLongTheirRequestsTook) {
+  start({}, clock_);
+  RawClient client(server_->endpoint());
+  ask_for_views(client, 1);
+  // Three quick ones so far, and one that waits for a view while time passes.
+  ask_for_views(client, 1);
+  ask_for_views(client, 1);
+  HeldView held(*site_, kQuietCell);
+  const auto waits = site_->tiers().cache->counters().waits;
+  client.send(RawClient::header("GetViews"), view_request(kQuietCell).SerializeAsString());
+  ASSERT_TRUE(eventually([&] { return site_->tiers().cache->counters().waits > waits; }));
+  clock_.advance(std::chrono::milliseconds(700));
+  held.release();
+  ASSERT_TRUE(client.receive());
+  const v1::GetStatsReply reply = stats(client);
+  ASSERT_TRUE(reply.latency_by_method().contains("GetViews"));
+  const v1::MethodLatency& views = reply.latency_by_method().at("GetViews");
+  EXPECT_EQ(views.count(), 4U);
+  EXPECT_EQ(views.p50_ms(), 0.001) << "the shortest that is told";
+  EXPECT_EQ(views.p99_ms(), 700.0);
+  EXPECT_EQ(views.max_ms(), 700.0);
+  EXPECT_FALSE(reply.latency_by_method().contains("Score"));
+}
+
 TEST_F(StatsTest, ViewsThatWereAwaitedAreCounted) {
   RawClient client(server_->endpoint());
   HeldView held(*site_, kQuietCell);
