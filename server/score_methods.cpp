@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -54,18 +53,20 @@ Status score_part(Scoring& scoring, std::size_t begin, std::size_t end, ThreadPo
   return {};
 }
 
-/// Cuts the ordered poses into chunks of whole cells.
+/// A pose and the cell whose view it takes; sorted as they are, without a look elsewhere.
+using PoseOfCell = std::pair<CellIndex, std::size_t>;
+
+/// Cuts the poses, in order, into chunks of whole cells.
 std::vector<Chunk> cut_poses(const std::shared_ptr<Scoring>& scoring,
-                             const std::vector<CellIndex>& cells,
+                             const std::vector<PoseOfCell>& poses,
                              ThreadPool& pool) {
   std::vector<Chunk> chunks;
-  const std::size_t count = scoring->order.size();
+  const std::size_t count = poses.size();
   std::size_t begin = 0;
   std::size_t distinct = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    distinct += i == begin || cells[scoring->order[i]] != cells[scoring->order[i - 1]] ? 1 : 0;
-    const bool last_of_cell =
-        i + 1 == count || cells[scoring->order[i + 1]] != cells[scoring->order[i]];
+    distinct += i == begin || poses[i].first != poses[i - 1].first ? 1 : 0;
+    const bool last_of_cell = i + 1 == count || poses[i + 1].first != poses[i].first;
     if (last_of_cell && (distinct == kCellsPerChunk || i + 1 == count)) {
       chunks.push_back({distinct, [scoring, begin, end = i + 1, &pool] {
                           return score_part(*scoring, begin, end, pool);
@@ -145,17 +146,15 @@ Result<Plan> plan_score(Services& services, const Request& request) {
   const std::vector<Pose2>& poses = scoring->request.poses;
   // By the cell whose view is taken: each view is then asked for by one chunk only, and counted
   // once, as in a call in-process.
-  std::vector<CellIndex> cells(poses.size());
+  std::vector<PoseOfCell> by_cell(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto cell = PoseGrid::cell(poses[i].x_m, poses[i].y_m);
     if (!cell) return protocol::wrong_field("poses", fmt::format("entry {} has no cell", i));
-    cells[i] = scoring->site->cells().view_cell(*cell).value_or(*cell);
+    by_cell[i] = {scoring->site->cells().view_cell(*cell).value_or(*cell), i};
   }
-  scoring->order.resize(poses.size());
-  std::iota(scoring->order.begin(), scoring->order.end(), std::size_t{0});
-  std::sort(scoring->order.begin(), scoring->order.end(), [&cells](std::size_t a, std::size_t b) {
-    return cells[a] != cells[b] ? cells[a] < cells[b] : a < b;
-  });
+  std::ranges::sort(by_cell);
+  scoring->order.reserve(poses.size());
+  for (const PoseOfCell& pose : by_cell) scoring->order.push_back(pose.second);
 
   ScoreBatch& batch = scoring->batch;
   batch.weight_scale = scoring->prepared->weight_scale();
@@ -165,7 +164,7 @@ Result<Plan> plan_score(Services& services, const Request& request) {
   if (scoring->request.whole_curve) batch.curve.resize(poses.size() * PoseGrid::kHeadings);
 
   Plan plan;
-  plan.chunks = cut_poses(scoring, cells, services.inline_pool);
+  plan.chunks = cut_poses(scoring, by_cell, services.inline_pool);
   SEMVIEW_TRY_STATUS(check_queue(services, plan.chunks.size() * kCellsPerChunk, "poses"));
   plan.finish = [scoring]() -> Result<std::string> {
     return protocol::to_wire(scoring->batch).SerializeAsString();
