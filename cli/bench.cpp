@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "bench_verbs.hpp"
 #include "semview/benchmark/growth.hpp"
 #include "semview/benchmark/suite.hpp"
 #include "semview/core/version.hpp"
@@ -163,6 +164,7 @@ void add_bench_verb(CLI::App& app, int& exit_code) {
   bench->add_flag("--markdown", options->markdown, "Print a table for Markdown")->excludes(json);
   bench->footer("Example: semview bench maps/duplex_level1 --only single,compass --threads 1");
   add_growth_verb(*bench, exit_code);
+  add_bench_load_verb(*bench, exit_code);
   bench->require_subcommand(0, 1);
   // The table, unless a verb of its own was asked for.
   bench->callback([bench, options, &exit_code] {

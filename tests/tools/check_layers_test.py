@@ -83,10 +83,11 @@ class CheckLayersTest(unittest.TestCase):
         self.add("cli/main.cpp", "#include <lmdb.h>")
         self.expect_only("cli/main.cpp:1: cli may not include <lmdb.h> of LMDB")
 
-    def test_the_command_line_includes_nothing_of_the_server(self):
-        self.add("cli/main.cpp", '#include "server/server.hpp"')
-        self.expect_only("cli/main.cpp:1: cli may not include server/server.hpp",
-                         "cli/CMakeLists.txt: cli includes headers of server and does not link it")
+    def test_a_robot_includes_nothing_of_the_server(self):
+        self.add("client/robot/localizer.cpp", '#include "server/server.hpp"')
+        self.expect_only(
+            "client/robot/localizer.cpp:1: client/robot may not include server/server.hpp",
+            "client/robot/CMakeLists.txt: client/robot includes headers of server and does not link it")
 
     def test_a_header_of_another_folder_needs_its_full_name(self):
         self.add("client/lib/connection.cpp", '#include "../../server/sockets.hpp"')
