@@ -52,6 +52,8 @@ ordered_json describe(const service::Site& site, const similarity::HeatMap& heat
       {"quantity", "similarity"},
       {"map", site.id()},
       {"fingerprint", to_hex(site.map().fingerprint)},
+      {"engine", site.engine().name},
+      {"engine_reason", site.engine().reason},
       {"origin_m",
        {heat.origin.ix * PoseGrid::kCellSize_m, heat.origin.iy * PoseGrid::kCellSize_m}},
       {"origin_cell", {heat.origin.ix, heat.origin.iy}},

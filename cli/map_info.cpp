@@ -13,7 +13,9 @@
 #include "semview/geometry/angle.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
-#include "semview/raycast/embree_engine.hpp"
+#include "semview/raycast/engine_choice.hpp"
+#include "semview/raycast/scene.hpp"
+#include "site_options.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -24,6 +26,7 @@ using nlohmann::ordered_json;
 struct Options {
   std::string map;
   map::LoadOptions load;
+  std::string engine;
   double eye_height_m = 1.2;
   bool json = false;
 };
@@ -73,12 +76,15 @@ ordered_json numbers_json(const Eigen::Vector3d& point) {
   return {point.x(), point.y(), point.z()};
 }
 
-ordered_json info_json(const map::SemanticMap& map, const map::CellGrid& grid) {
+ordered_json info_json(const map::SemanticMap& map,
+                       const map::CellGrid& grid,
+                       const raycast::EngineChoice& choice) {
   ordered_json info{{"id", map.id},
                     {"name", map.name},
                     {"fingerprint", to_hex(map.fingerprint)},
                     {"kind", map.columns() != nullptr ? "plan" : "mesh"},
-                    {"engine", raycast::EmbreeEngine::kName},
+                    {"engine", choice.engine->name()},
+                    {"engine_reason", choice.reason},
                     {"ground_height_m", map.ground_height_m}};
   if (map.ceiling) info["ceiling_height_m"] = map.ceiling->height_m;
   const Box box = box_of(map);
@@ -115,14 +121,16 @@ void print_classes(const map::SemanticMap& map) {
   }
 }
 
-void print_text(const map::SemanticMap& map, const map::CellGrid& grid) {
+void print_text(const map::SemanticMap& map,
+                const map::CellGrid& grid,
+                const raycast::EngineChoice& choice) {
   const auto line = [](const char* key, const std::string& value) {
     fmt::print("{:<12} {}\n", key, value);
   };
   line("id", map.id);
   line("name", map.name);
   line("fingerprint", to_hex(map.fingerprint));
-  line("engine", fmt::format("{} (it serves every map)", raycast::EmbreeEngine::kName));
+  line("engine", fmt::format("{} ({})", choice.engine->name(), choice.reason));
   if (const map::ColumnMap* columns = map.columns()) {
     line("plan",
          fmt::format("{} x {} pixels of {:g} m",
@@ -161,14 +169,35 @@ void print_text(const map::SemanticMap& map, const map::CellGrid& grid) {
   print_classes(map);
 }
 
+Result<raycast::EngineChoice> choose_engine(const map::SemanticMap& map,
+                                            const map::CellGrid& grid,
+                                            const Options& options) {
+  SEMVIEW_TRY_STATUS(raycast::check_engine_name(options.engine));
+  Result<raycast::Scene> scene = raycast::Scene::build(map);
+  if (!scene) return with_context(std::move(scene), options.map);
+  ViewProfile profile;
+  profile.eye_height_m = options.eye_height_m;
+  ThreadPool pool;
+  return raycast::choose_engine(options.engine,
+                                {map.id,
+                                 map.classes,
+                                 map.columns(),
+                                 std::make_shared<const raycast::Scene>(*std::move(scene)),
+                                 grid,
+                                 map.ground_height_m},
+                                profile,
+                                pool);
+}
+
 Status show(const Options& options) {
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
   SEMVIEW_TRY(const map::CellGrid grid, cell_grid_of(map, options.eye_height_m));
+  SEMVIEW_TRY(const raycast::EngineChoice choice, choose_engine(map, grid, options));
   if (options.json) {
-    const ordered_json info = info_json(map, grid);
+    const ordered_json info = info_json(map, grid, choice);
     fmt::print("{}\n", info.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    print_text(map, grid);
+    print_text(map, grid, choice);
   }
   return {};
 }
@@ -180,6 +209,7 @@ void add_map_info(CLI::App& map, int& exit_code) {
       "info", "Say what a map is: id, name, fingerprint, size, classes, free cells, engine.");
   const auto options = std::make_shared<Options>();
   verb->add_option("MAP", options->map, "Map folder, map.yaml or .glb file")->required();
+  add_engine_option(*verb, options->engine);
   verb->add_option("--eye-height", options->eye_height_m, "Metres above the ground")
       ->check(CLI::Range(0.05, 100.0))
       ->capture_default_str();

@@ -111,6 +111,8 @@ Status dry_run(const service::Site& site, const service::PrecomputePlan& plan, b
   SEMVIEW_TRY(const service::PrecomputeEstimate estimate, service::estimate_precompute(site, plan));
   if (as_json) {
     const nlohmann::json json = {{"map", site.id()},
+                                 {"engine", site.engine().name},
+                                 {"engine_reason", site.engine().reason},
                                  {"free_cells", plan.free_cells},
                                  {"cells", estimate.cells},
                                  {"found", estimate.found},
@@ -141,6 +143,8 @@ void show_end(const service::Site& site,
   if (!on_terminal) {
     nlohmann::json json = to_json(complete ? "complete" : "stopped", progress);
     json["map"] = site.id();
+    json["engine"] = site.engine().name;
+    json["engine_reason"] = site.engine().reason;
     json["file_bytes"] = site.tiers().store->file_bytes();
     fmt::print("{}\n", json.dump());
   } else {

@@ -99,7 +99,7 @@ struct Scorer {
   std::unique_ptr<ScoreSource> source;
   std::string map_id;
   Fingerprint fingerprint;
-  std::string engine;
+  std::string engine, engine_reason;
 };
 
 Result<Scorer> open_remote(const Options& options, const ClassTable& observed) {
@@ -121,6 +121,7 @@ Result<Scorer> open_remote(const Options& options, const ClassTable& observed) {
   scorer.map_id = remote->map().summary.id;
   scorer.fingerprint = remote->map().summary.fingerprint;
   scorer.engine = remote->map().engine;
+  scorer.engine_reason = remote->map().engine_reason;
   scorer.source = std::move(remote);
   return scorer;
 }
@@ -134,6 +135,7 @@ Result<Scorer> open_scorer(const Options& options, const ClassTable& observed) {
   scorer.map_id = scorer.site->id();
   scorer.fingerprint = scorer.site->map().fingerprint;
   scorer.engine = scorer.site->engine().name;
+  scorer.engine_reason = scorer.site->engine().reason;
   scorer.source = std::make_unique<similarity::SimilarityScoreSource>(
       scorer.site->views(), scorer.site->map().classes, std::move(weights), scorer.site->pool());
   return scorer;
@@ -146,6 +148,7 @@ void print_json(const Scorer& scorer,
   ordered_json json{{"map", scorer.map_id},
                     {"fingerprint", to_hex(scorer.fingerprint)},
                     {"engine", scorer.engine},
+                    {"engine_reason", scorer.engine_reason},
                     {"weight_scale", batch.weight_scale},
                     {"observed_pixels", batch.observed_pixels},
                     {"cells",

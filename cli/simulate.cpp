@@ -13,6 +13,7 @@
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/simulation/simulator.hpp"
+#include "site_options.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -51,6 +52,7 @@ Status check_options(const simulation::SimulationConfig& config) {
                                                            {"eye_height_m", "--eye-height"}};
   Error error = valid.error();
   const auto known = kOptions.find(error.field);
+  if (error.field.starts_with("--")) return fail(std::move(error));
   error.field = known != kOptions.end() ? known->second : "--" + error.field;
   error.message = fmt::format("{}: {}", error.field, error.message);
   return fail(std::move(error));
@@ -79,6 +81,8 @@ void print_text(const Options& options, const simulation::SimulationReport& run)
 void print_json(const Options& options, const simulation::SimulationReport& run) {
   const nlohmann::json json{
       {"out", options.output},
+      {"engine", run.engine},
+      {"engine_reason", run.engine_reason},
       {"seed", options.config.seed},
       {"frames", run.frames},
       {"way_m", run.way_m},
@@ -157,6 +161,7 @@ void add_simulate_verb(CLI::App& app, int& exit_code) {
                    "Probability that a piece of furniture is missing, before --noise scales it")
       ->capture_default_str();
   add_camera_options(*verb, *options);
+  add_engine_option(*verb, config.engine);
   verb->add_flag("--nearest-colour",
                  options->nearest_colour,
                  "Take unknown colours to be the nearest class's");

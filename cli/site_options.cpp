@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "site_options.hpp"
 
+#include <cstdlib>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -21,8 +23,7 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
   verb.add_option("map", options.map, "Map: a bundle's folder, its map.yaml, or a .glb")
       ->type_name("MAP")
       ->required(map_required);
-  verb.add_option("--engine", options.engine, "What casts the views: auto or embree")
-      ->capture_default_str();
+  add_engine_option(verb, options.engine);
   verb.add_option("--eye-height", options.eye_height_m, "Eye above the ground, metres")
       ->capture_default_str();
   verb.add_option("--columns", options.columns, "Columns of a panorama, a multiple of 120")
@@ -46,6 +47,17 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
   verb.add_flag("--nearest-colour",
                 options.nearest_colour,
                 "Take a plan's in-between colours for the nearest class colour");
+}
+
+void add_engine_option(CLI::App& verb, std::string& engine) {
+  // Not CLI11's own envname(): with it the option would count as given.
+  const char* const wish = std::getenv("SEMVIEW_ENGINE");
+  engine = wish != nullptr && *wish != '\0' ? wish : "auto";
+  verb.add_option("--engine",
+                  engine,
+                  "What casts the views: auto, columns (plans only) or embree; SEMVIEW_ENGINE in "
+                  "the environment is the default")
+      ->capture_default_str();
 }
 
 Status check_no_site_options(const CLI::App& verb) {

@@ -18,7 +18,7 @@ namespace semview::cli {
 /// As given on the command line.
 struct SiteOptions {
   std::string map;  ///< the positional MAP: bundle folder, map.yaml or .glb
-  std::string engine = "auto";
+  std::string engine;
   double eye_height_m = 1.2;
   int columns = 360;
   int rows = 90;
@@ -35,6 +35,9 @@ struct SiteOptions {
 /// --threads and --nearest-colour. `map_required` is false for verbs that may ask a server instead.
 /// `options` must outlive the parse.
 void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required = true);
+
+/// Adds --engine alone; its default is the environment variable SEMVIEW_ENGINE, else auto.
+void add_engine_option(CLI::App& verb, std::string& engine);
 
 /// Where `verb` asks a server: none of the options that are the server's own choice was given.
 /// @errors kInvalidArgument, with the option as the field.

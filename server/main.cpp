@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -70,13 +71,18 @@ void add_options(CLI::App& app, CommandLine& line) {
   app.add_option("--memory", line.memory, "bytes of views kept in memory (default 512M)");
   app.add_option("--threads", line.threads, "workers (default: one a core)");
   app.add_option("--eye-height", line.eye_height_m, "camera above the ground in m (default 1.2)");
-  app.add_option("--engine", line.engine, "auto or embree");
+  app.add_option("--engine",
+                 line.engine,
+                 "auto, columns (plans only) or embree (default: SEMVIEW_ENGINE in the "
+                 "environment, else auto)");
   app.add_flag("--ranges", line.ranges, "views of the grid carry ranges (in a cache of their own)");
   app.add_flag("--nearest-colour", line.nearest_colour, "accept plans with smoothed edges");
 }
 
 Result<Options> options_of(const CommandLine& line) {
   Options options;
+  const char* const engine = std::getenv("SEMVIEW_ENGINE");
+  if (engine != nullptr && *engine != '\0') options.site.engine = engine;
   if (!line.config.empty()) SEMVIEW_TRY_STATUS(read_config(line.config, &options));
   for (const std::string& text : line.maps) {
     SEMVIEW_TRY(MapOption map, parse_map_option(text));

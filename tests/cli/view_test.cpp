@@ -7,10 +7,11 @@
 
 #include "semview/io/png.hpp"
 #include "semview/io/range_png.hpp"
-#include "semview/map/extrusion.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/raycast/column_renderer.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
+#include "support/engine_wish.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -31,9 +32,13 @@ class ViewVerbTest : public ::testing::Test {
   std::string err() const { return testing::file_bytes(folder_ / "err"); }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  static raycast::Scene scene() {
+  static raycast::Scene scene() { return std::move(*raycast::Scene::build(*map::load_map(kMap))); }
+
+  /// What the engine that the program takes sees.
+  static raycast::Panorama panorama(const raycast::PanoramaRequest& request) {
+    if (testing::plan_engine() == "embree") return raycast::render_panorama(scene(), request);
     const auto map = map::load_map(kMap);
-    return std::move(*raycast::Scene::build(map::extrude(*map->columns())));
+    return raycast::render_panorama(raycast::ColumnScene::build(*map->columns()), request);
   }
 
   testing::TemporaryFolder folder_;
@@ -45,14 +50,14 @@ TEST_F(ViewVerbTest, WritesTheIdsAndMillimetresOfAPanorama) {
                  file("picture.png") + " --range-image " + file("ranges.png") + " --json"),
             0)
       << err();
-  const raycast::Panorama truth = raycast::render_panorama(
-      scene(),
+  const raycast::Panorama truth = panorama(
       {{2.35, -3.05, kPi / 2.0}, 1.2, {240, 50, rad_from_deg(-30.0), rad_from_deg(40.0)}, {}});
   EXPECT_EQ(io::read_png_grey(file("ids.png")).value(), truth.labels);
   EXPECT_EQ(io::read_png_grey16(file("mm.png")).value(), io::millimetres(truth.ranges_m));
   EXPECT_GT(io::png_size(file("picture.png")).value().columns, 240);
   EXPECT_GT(io::png_size(file("ranges.png")).value().columns, 240);
-  EXPECT_THAT(out(), ::testing::HasSubstr("\"engine\": \"embree\""));
+  EXPECT_THAT(out(), ::testing::HasSubstr("\"engine\": \"" + testing::plan_engine() + "\""));
+  EXPECT_THAT(out(), ::testing::HasSubstr("\"engine_reason\": \""));
   EXPECT_THAT(out(), ::testing::HasSubstr("\"name\": \"wall\""));
 }
 
@@ -71,9 +76,32 @@ TEST_F(ViewVerbTest, CastsThroughAnAffine) {
   ASSERT_EQ(view(kMap + " --pose 2.35,-3.05,90 --affine 1.1,0.9,0.05 --labels " + file("ids.png")),
             0)
       << err();
-  const raycast::Panorama truth =
-      raycast::render_panorama(scene(), {{2.35, -3.05, kPi / 2.0}, 1.2, {}, {1.1, 0.9, 0.05}});
+  const raycast::Panorama truth = panorama({{2.35, -3.05, kPi / 2.0}, 1.2, {}, {1.1, 0.9, 0.05}});
   EXPECT_EQ(io::read_png_grey(file("ids.png")).value(), truth.labels);
+}
+
+TEST_F(ViewVerbTest, TakesItsEngineFromTheOptionThenFromTheEnvironment) {
+  const auto engine_of = [&](const std::string& environment, const std::string& options) {
+    const testing::Outcome run =
+        testing::run_command(environment + " '" SEMVIEW_BINARY_DIR "/semview' view " + kMap +
+                             " --pose 2,-3,90 --columns 120 --rows 10 --json " + options);
+    for (const char* name : {"columns", "embree"}) {
+      const std::string field = std::string("\"engine\": \"") + name + "\"";
+      if (run.output.find(field) != std::string::npos) return std::string(name);
+    }
+    return run.output;
+  };
+  EXPECT_EQ(engine_of("SEMVIEW_ENGINE=", ""), "columns");
+  EXPECT_EQ(engine_of("SEMVIEW_ENGINE=embree", ""), "embree");
+  EXPECT_EQ(engine_of("SEMVIEW_ENGINE=embree", "--engine columns"), "columns");
+  EXPECT_EQ(engine_of("SEMVIEW_ENGINE=embree", "--engine auto"), "columns");
+  EXPECT_THAT(engine_of("SEMVIEW_ENGINE=crystal", ""),
+              ::testing::HasSubstr("--engine and SEMVIEW_ENGINE take auto, columns or embree"));
+}
+
+TEST_F(ViewVerbTest, ColumnsOfAMeshAreRefused) {
+  EXPECT_EQ(view(SEMVIEW_SOURCE_DIR "/maps/duplex_building --pose 2,-3,90 --engine columns"), 2);
+  EXPECT_THAT(err(), ::testing::HasSubstr("is a mesh"));
 }
 
 TEST_F(ViewVerbTest, SaysWhatIsWrongWithAnOption) {

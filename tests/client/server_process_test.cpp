@@ -13,6 +13,7 @@
 #include "semview/v1/jobs.pb.h"
 #include "server/raw_client.hpp"
 #include "server/room.hpp"
+#include "support/engine_wish.hpp"
 #include "support/running_server.hpp"
 
 namespace semview::test {
@@ -97,6 +98,31 @@ TEST_F(ServerProcessTest, WarnsOfAnAddressThatOthersReach) {
   server->signal(SIGTERM);
   EXPECT_EQ(server->wait(), 0);
   EXPECT_NE(server->errors().find("no authentication"), std::string::npos);
+}
+
+TEST_F(ServerProcessTest, TakesItsEngineFromTheOptionThenTheFileThenTheEnvironment) {
+  const std::string wish = testing::engine_wish();
+  ::setenv("SEMVIEW_ENGINE", "embree", 1);
+  std::ofstream(folder_ / "server.yaml") << "engine: columns\n";
+  const std::string file = (folder_ / "server.yaml").string();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "embree"},
+      {{"--config", file}, "columns"},
+      {{"--config", file, "--engine", "embree"}, "embree"},
+  };
+  for (const auto& [options, engine] : cases) {
+    std::vector<std::string> arguments{"--map", room_.string(), "--bind", "tcp://127.0.0.1:*"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto server = serve(arguments);
+    client::Connection connection = connect();
+    const auto map = client::get_map(connection, "room");
+    ASSERT_TRUE(map) << map.error().message;
+    EXPECT_EQ(map->engine, engine);
+    EXPECT_EQ(map->engine_reason, "it was asked for");
+    server->signal(SIGTERM);
+    EXPECT_EQ(server->wait(), 0);
+  }
+  ::setenv("SEMVIEW_ENGINE", wish.c_str(), 1);
 }
 
 TEST_F(ServerProcessTest, WrongUseIsToldInOneLineAndExitsWithTwo) {
@@ -195,7 +221,7 @@ TEST_F(ServerProcessTest, ALimitOnFileSizesStopsStoringAndNotTheServer) {
   config.timeout = std::chrono::seconds(20);
   const auto source = client::RemoteViewSource::open(config, "room");
   ASSERT_TRUE(source) << source.error().message;
-  const auto cells = open_site(room_, {}, {})->cells().free_cells();
+  const auto cells = open_site(room_, {}, default_sites())->cells().free_cells();
   for (int round = 0; round < 2; ++round) {
     const auto views = (*source)->views(cells);
     ASSERT_TRUE(views) << views.error().message;
@@ -261,7 +287,7 @@ TEST_F(ServerProcessTest, AKilledServerComesBackUnderItsClients) {
   client::ConnectionConfig config;
   config.endpoint = endpoint_;
   config.timeout = std::chrono::seconds(20);
-  auto site = open_site(room_, {}, {});
+  auto site = open_site(room_, {}, default_sites());
   const auto source = client::RemoteScoreSource::open(
       config, "room", similarity::WeightMatrix::identity(site->map().classes));
   ASSERT_TRUE(source) << source.error().message;

@@ -6,6 +6,7 @@
 
 #include "map/bundle.hpp"
 #include "semview/io/png.hpp"
+#include "support/engine_wish.hpp"
 #include "support/run_program.hpp"
 
 namespace semview::map {
@@ -62,7 +63,7 @@ TEST_F(MapVerbsTest, InfoNamesWhatAServerNeeds) {
   EXPECT_EQ(info["fingerprint"].get<std::string>().size(), 32U);
   EXPECT_GT(info["free_cells"].get<int>(), 2000);
   EXPECT_EQ(info["classes"][0]["name"], "ceiling");
-  EXPECT_EQ(info["engine"], "embree");
+  EXPECT_EQ(info["engine"], semview::testing::plan_engine());
 }
 
 TEST_F(MapVerbsTest, InfoOfAMeshMapCountsFreeCells) {
@@ -71,6 +72,7 @@ TEST_F(MapVerbsTest, InfoOfAMeshMapCountsFreeCells) {
   const json info = json::parse(run.output);
   EXPECT_EQ(info["kind"], "mesh");
   EXPECT_EQ(info["engine"], "embree");
+  EXPECT_FALSE(info["engine_reason"].get<std::string>().empty());
   // The storeys' floors are 3.1 m apart, and the house is two of them high.
   EXPECT_GT(info["size_m"][2].get<double>(), 5.0);
   for (int axis = 0; axis < 3; ++axis) {

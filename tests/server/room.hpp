@@ -17,6 +17,7 @@
 #include "semview/service/map_registry.hpp"
 #include "semview/service/site.hpp"
 #include "semview/view/observation.hpp"
+#include "support/engine_wish.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview::test {
@@ -74,6 +75,14 @@ inline service::SiteConfig small_sites() {
   config.profile.camera.columns = 120;
   config.profile.camera.rows = 30;
   config.threads = 2;
+  config.engine = testing::engine_wish();
+  return config;
+}
+
+/// As semview-server has them by default.
+inline service::SiteConfig default_sites() {
+  service::SiteConfig config;
+  config.engine = testing::engine_wish();
   return config;
 }
 

@@ -60,7 +60,10 @@ TEST_F(ServerTest, GetMapTellsWhatTheSiteIs) {
   EXPECT_EQ(map->classes, site_->map().classes);
   EXPECT_EQ(map->profile, site_->profile());
   EXPECT_EQ(map->free_cells, site_->cells().free_cells());
-  EXPECT_EQ(map->engine, site_->engine().name);
+  EXPECT_EQ(map->engine, testing::plan_engine());
+  EXPECT_EQ(map->engine_version, site_->engine().version);
+  EXPECT_EQ(map->engine_reason, site_->engine().reason);
+  EXPECT_FALSE(map->engine_reason.empty());
   EXPECT_EQ(map->colors[2], (Rgb{120, 120, 120}));
   EXPECT_EQ(map->glb.substr(0, 4), "glTF");
 }

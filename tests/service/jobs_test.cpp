@@ -5,6 +5,7 @@
 
 #include "semview/service/site.hpp"
 #include "service/small_map.hpp"
+#include "support/engine_wish.hpp"
 
 namespace semview::service {
 namespace {
@@ -14,6 +15,7 @@ class JobsTest : public ::testing::Test {
   JobsTest() {
     config_.profile.camera = {120, 1024, -0.7, 0.7};  // tall: several chunks
     config_.threads = 1;
+    config_.engine = testing::engine_wish();
     config_.cache_directory = folder_.path() / "cache";
   }
   std::shared_ptr<Site> open() { return *Site::open(map_, config_); }

@@ -5,6 +5,7 @@
 
 #include "semview/service/site.hpp"
 #include "service/small_map.hpp"
+#include "support/engine_wish.hpp"
 
 namespace semview::service {
 namespace {
@@ -13,7 +14,8 @@ TEST(MapRegistryTest, FindsMapsByIdAndNamesThemWhenItCannot) {
   const testing::TemporaryFolder folder;
   MapRegistry registry;
   EXPECT_EQ(registry.find("a").error().code, ErrorCode::kNotFound);
-  const auto site = *Site::open(testing::write_small_map(folder), {});
+  const auto site =
+      *Site::open(testing::write_small_map(folder), {.engine = testing::engine_wish()});
   ASSERT_TRUE(registry.add(site).has_value());
   const auto found = registry.find("two_rooms");
   ASSERT_TRUE(found.has_value());

@@ -10,6 +10,7 @@
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/service/site.hpp"
 #include "service/small_map.hpp"
+#include "support/engine_wish.hpp"
 
 namespace semview::service {
 namespace {
@@ -33,6 +34,7 @@ class PrecomputeTest : public ::testing::Test {
     SiteConfig config;
     config.profile.camera = {120, rows, -0.7, 0.7};
     config.threads = threads;
+    config.engine = testing::engine_wish();
     if (cache != nullptr) config.cache_directory = folder_.path() / cache;
     auto site = Site::open(map_, config);
     EXPECT_TRUE(site.has_value()) << (site ? "" : site.error().message);
@@ -194,6 +196,7 @@ TEST_F(PrecomputeTest, NeedsACacheDirectoryThatTakesRecords) {
   SiteConfig config;
   config.profile.camera = {120, 24, -0.7, 0.7};
   config.cache_directory = folder_.path() / "full";
+  config.engine = testing::engine_wish();
   config.cache_limit_bytes = 100'000;
   const auto full = Site::open(map_, config);
   ASSERT_TRUE(full.has_value());

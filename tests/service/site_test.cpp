@@ -7,9 +7,12 @@
 #include "semview/cache/view_cache.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/raycast/column_renderer.hpp"
+#include "semview/raycast/embree_engine.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
 #include "service/small_map.hpp"
+#include "support/engine_wish.hpp"
 
 namespace semview::service {
 namespace {
@@ -19,6 +22,7 @@ class SiteTest : public ::testing::Test {
   std::shared_ptr<Site> open(const std::filesystem::path& map, SiteConfig config = {}) {
     config.profile.camera = {120, 24, -0.7, 0.7};
     config.threads = 2;
+    if (config.engine == "auto") config.engine = testing::engine_wish();
     auto site = Site::open(map, config);
     EXPECT_TRUE(site.has_value()) << (site ? "" : site.error().message);
     return site ? *site : nullptr;
@@ -94,7 +98,12 @@ TEST_F(SiteTest, ExactViewsAreTheRenderersAndKeepToTheLimit) {
   request.camera = {240, 30, -0.6, 0.6};
   const auto panorama = site->exact_panorama(request);
   ASSERT_TRUE(panorama.has_value());
-  EXPECT_EQ(panorama->labels, raycast::render_panorama(site->scene(), request).labels);
+  if (testing::plan_engine() == "embree") {
+    EXPECT_EQ(panorama->labels, raycast::render_panorama(site->scene(), request).labels);
+  } else {
+    const auto columns = raycast::ColumnScene::build(*site->map().columns());
+    EXPECT_EQ(panorama->labels, raycast::render_panorama(columns, request).labels);
+  }
   request.map_from_robot.x_m = std::nan("");
   EXPECT_EQ(site->exact_panorama(request).error().code, ErrorCode::kInvalidArgument);
 
@@ -109,8 +118,45 @@ TEST_F(SiteTest, ExactViewsAreTheRenderersAndKeepToTheLimit) {
   EXPECT_EQ(site->exact_pinhole(pinhole).error().code, ErrorCode::kResourceExhausted);
 }
 
+TEST_F(SiteTest, SaysWhichEngineCastsAndWhy) {
+  EXPECT_EQ(open(map_)->engine().name, testing::plan_engine());
+  SiteConfig config;
+  config.engine = "embree";
+  const auto site = open(map_, config);
+  EXPECT_EQ(site->engine().name, "embree");
+  EXPECT_EQ(site->engine().version, raycast::EmbreeEngine::kVersion);
+  EXPECT_EQ(site->engine().reason, "it was asked for");
+}
+
+TEST_F(SiteTest, ViewsOfOneEngineAreNoneOfTheOthers) {
+  SiteConfig config;
+  config.cache_directory = folder_.path() / "cache";
+  for (const char* engine : {"embree", "columns"}) {
+    config.engine = engine;
+    const auto first = open(map_, config)->views().views(cells_);
+    ASSERT_TRUE(first.has_value());
+    EXPECT_EQ(first->origins, (ViewOrigins{0, 0, 2})) << engine;
+    const auto again = open(map_, config)->views().views(cells_);
+    ASSERT_TRUE(again.has_value());
+    EXPECT_EQ(again->origins, (ViewOrigins{0, 2, 0})) << engine;
+  }
+}
+
+TEST_F(SiteTest, BothEnginesSeeTheSame) {
+  SiteConfig config;
+  config.engine = "embree";
+  const auto embree = open(map_, config)->views().views(cells_);
+  config.engine = "columns";
+  const auto columns = open(map_, config)->views().views(cells_);
+  ASSERT_TRUE(embree.has_value() && columns.has_value());
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    EXPECT_EQ(*embree->views[i], *columns->views[i]);
+  }
+}
+
 TEST_F(SiteTest, SitesShareTheirTiers) {
   SiteConfig config;
+  config.engine = testing::engine_wish();
   config.profile.camera = {120, 24, -0.7, 0.7};
   config.cache_directory = folder_.path() / "cache";
   const auto tiers = SharedTiers::open(config);

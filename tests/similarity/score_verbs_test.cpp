@@ -14,6 +14,7 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/service/site.hpp"
+#include "support/engine_wish.hpp"
 #include "support/run_program.hpp"
 
 namespace semview {
@@ -32,6 +33,7 @@ class ScoreVerbsTest : public ::testing::Test {
     std::filesystem::create_directories(folder_);
     service::SiteConfig config;
     config.threads = 1;
+    config.engine = testing::engine_wish();
     const auto site = service::Site::open(kMap, config).value();
     const std::vector<CellIndex> cells = site->cells().free_cells();
     truth_ = PoseGrid::center(GridKey{cells[cells.size() / 2], 30});

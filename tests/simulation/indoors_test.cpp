@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/simulation/indoors.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "mesh/text_plan.hpp"
-#include "semview/map/extrusion.hpp"
+#include "semview/raycast/columns_engine.hpp"
 
 namespace semview::simulation {
 namespace {
@@ -32,9 +33,9 @@ map::ColumnMap room_with_terrace() {
 }
 
 map::CellGrid indoors(const map::ColumnMap& plan) {
-  const auto scene = raycast::Scene::build(map::extrude(plan));
-  EXPECT_TRUE(scene);
-  return indoor_cells(map::build_cell_grid(plan, kEye_m), *scene, plan.ground_height_m + kEye_m);
+  const raycast::ColumnsEngine engine(
+      std::make_shared<const raycast::ColumnScene>(raycast::ColumnScene::build(plan)));
+  return indoor_cells(map::build_cell_grid(plan, kEye_m), engine, plan.ground_height_m + kEye_m);
 }
 
 TEST(IndoorsTest, TheTerraceIsLeftOutAndTheRoomWithItsDoorStays) {

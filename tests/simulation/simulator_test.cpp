@@ -12,6 +12,7 @@
 #include "semview/map/extrusion.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "simulation/two_rooms.hpp"
+#include "support/engine_wish.hpp"
 
 namespace semview::simulation {
 namespace {
@@ -27,6 +28,7 @@ class SimulatorTest : public testing::Test {
 
   static SimulationConfig small_config() {
     SimulationConfig config;
+    config.engine = testing::engine_wish();
     config.frames = 6;
     config.camera.columns = 240;
     config.camera.rows = 60;
@@ -45,6 +47,7 @@ TEST_F(SimulatorTest, PerfectRobotSeesTheMapFromItsTruePoses) {
   const auto report = simulate(map, config, folder_ / "run");
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(report->wrong_label_share, 0.0);
+  EXPECT_EQ(report->engine, testing::plan_engine());
   EXPECT_NEAR(report->odometry_error_m, 0.0, 1e-9);
   ASSERT_EQ(report->opened_doors, 0);
 

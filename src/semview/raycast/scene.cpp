@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "semview/map/extrusion.hpp"
+#include "semview/map/semantic_map.hpp"
 #include "semview/raycast/scene_impl.hpp"
 
 namespace semview::raycast {
@@ -131,6 +133,11 @@ Result<Scene> Scene::build(const map::TriangleMesh& mesh, const SceneConfig& con
   rtcCommitScene(impl->scene);
   SEMVIEW_TRY_STATUS(embree_error(impl->device, "building the scene"));
   return Scene(std::move(impl));
+}
+
+Result<Scene> Scene::build(const map::SemanticMap& map) {
+  const map::MeshGeometry* geometry = map.mesh();
+  return build(geometry != nullptr ? geometry->mesh : map::extrude(*map.columns()));
 }
 
 Scene::Scene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -10,6 +10,10 @@
 #include "semview/core/result.hpp"
 #include "semview/map/triangle_mesh.hpp"
 
+namespace semview::map {
+struct SemanticMap;
+}
+
 namespace semview::raycast {
 
 /// More than any building needs; Embree takes about 100 bytes a triangle.
@@ -36,6 +40,9 @@ class Scene {
   /// @errors kInvalidArgument: no triangles, more than `kMaxTriangles`, not one label a triangle,
   /// an index past the vertices, a coordinate that is not finite; kInternal: Embree gave up.
   static Result<Scene> build(const map::TriangleMesh& mesh, const SceneConfig& config = {});
+
+  /// Of a map's mesh, or of its extruded plan.
+  static Result<Scene> build(const map::SemanticMap& map);
 
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;

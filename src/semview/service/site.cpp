@@ -11,9 +11,8 @@
 #include "semview/cache/memory_tier.hpp"
 #include "semview/cache/view_cache.hpp"
 #include "semview/map/cell_grid.hpp"
-#include "semview/map/extrusion.hpp"
 #include "semview/map/semantic_map.hpp"
-#include "semview/raycast/embree_engine.hpp"
+#include "semview/raycast/engine_choice.hpp"
 #include "semview/raycast/engine_view_source.hpp"
 #include "semview/raycast/mesh_cell_grid.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
@@ -45,13 +44,6 @@ Status check_pixels(int columns, int rows) {
       "columns"});
 }
 
-Result<raycast::Scene> build_scene(const map::SemanticMap& map) {
-  if (const map::MeshGeometry* geometry = map.mesh()) {
-    return raycast::Scene::build(geometry->mesh);
-  }
-  return raycast::Scene::build(map::extrude(*map.columns()));
-}
-
 Result<map::CellGrid> build_cells(const map::SemanticMap& map,
                                   const raycast::Scene& scene,
                                   double eye_height_m) {
@@ -69,11 +61,7 @@ Status validate(const SiteConfig& config) {
     error.field = option_of(error.field);
     return fail(std::move(error));
   }
-  if (config.engine != "auto" && config.engine != raycast::EmbreeEngine::kName) {
-    return fail(Error{ErrorCode::kInvalidArgument,
-                      fmt::format("engine {} is not known: auto or embree", config.engine),
-                      "--engine"});
-  }
+  SEMVIEW_TRY_STATUS(raycast::check_engine_name(config.engine));
   if (config.threads > kMaxThreads) {
     return fail(Error{ErrorCode::kInvalidArgument,
                       fmt::format("threads {} must be at most {}", config.threads, kMaxThreads),
@@ -98,6 +86,7 @@ Result<SharedTiers> SharedTiers::open(const SiteConfig& config) {
 struct Site::Parts {
   map::SemanticMap map;
   std::shared_ptr<const raycast::Scene> scene;
+  std::shared_ptr<const raycast::Engine> caster;
   map::CellGrid cells;
   EngineChoice engine;
   cache::Keyspace keyspace;
@@ -115,7 +104,7 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
   auto parts = std::make_unique<Parts>();
   SEMVIEW_TRY(parts->map, map::load_map(path, {config.nearest_colour}));
   if (!id.empty()) parts->map.id = id;
-  Result<raycast::Scene> scene = build_scene(parts->map);
+  Result<raycast::Scene> scene = raycast::Scene::build(parts->map);
   if (!scene) return with_context(std::move(scene), path.string());
   parts->scene = std::make_shared<const raycast::Scene>(*std::move(scene));
   SEMVIEW_TRY(parts->cells, build_cells(parts->map, *parts->scene, config.profile.eye_height_m));
@@ -130,16 +119,25 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
                                   config.profile.eye_height_m,
                                   path.string())});
   }
-  const auto engine = std::make_shared<const raycast::EmbreeEngine>(parts->scene);
-  parts->engine = {std::string(engine->name()),
-                   engine->version(),
-                   config.engine == "auto" ? "it serves every map" : "it was asked for"};
+  parts->tiers = std::move(tiers);
+  SEMVIEW_TRY(raycast::EngineChoice choice,
+              raycast::choose_engine(config.engine,
+                                     {parts->map.id,
+                                      parts->map.classes,
+                                      parts->map.columns(),
+                                      parts->scene,
+                                      parts->cells,
+                                      parts->map.ground_height_m},
+                                     config.profile,
+                                     *parts->tiers.pool));
+  parts->caster = choice.engine;
+  parts->engine = {
+      std::string(choice.engine->name()), choice.engine->version(), std::move(choice.reason)};
   parts->keyspace = {
       parts->map.fingerprint, parts->engine.name, parts->engine.version, config.profile};
-  parts->tiers = std::move(tiers);
   SEMVIEW_TRY(parts->engine_views,
               raycast::EngineViewSource::create(
-                  engine, config.profile, parts->map.ground_height_m, *parts->tiers.pool));
+                  parts->caster, config.profile, parts->map.ground_height_m, *parts->tiers.pool));
   parts->cached_views =
       std::make_unique<CachedViewSource>(*parts->engine_views, parts->keyspace, parts->tiers.cache);
   parts->views = std::make_unique<NearestEyeViewSource>(*parts->cached_views, parts->cells);
@@ -178,7 +176,7 @@ double Site::eye_z_m(double eye_height_m) const {
 Result<raycast::Panorama> Site::exact_panorama(const raycast::PanoramaRequest& request) const {
   SEMVIEW_TRY_STATUS(raycast::validate(request));
   SEMVIEW_TRY_STATUS(check_pixels(request.camera.columns, request.camera.rows));
-  return raycast::render_panorama(*parts_->scene, request);
+  return parts_->caster->panorama(request);
 }
 
 Result<raycast::PinholeView> Site::exact_pinhole(const raycast::PinholeRequest& request) const {

@@ -37,7 +37,7 @@ namespace semview::service {
 /// How a map's views are made and kept.
 struct SiteConfig {
   ViewProfile profile = {};
-  std::string engine = "auto";                                ///< "auto" or "embree"
+  std::string engine = "auto";                                ///< "auto", "columns" or "embree"
   std::optional<std::filesystem::path> cache_directory = {};  ///< none: memory only
   std::uint64_t cache_limit_bytes = 0;  ///< of the directory; 0: as far as the disk goes
   std::uint64_t memory_bytes = std::uint64_t{512} << 20U;  ///< budget of the memory tier
@@ -92,6 +92,7 @@ class Site {
   const ViewProfile& profile() const;
   /// What the records of this site's views are filed under.
   const cache::Keyspace& keyspace() const;
+  /// For pinhole views, which only Embree casts.
   const raycast::Scene& scene() const;
 
   /// Cached views of any cell: a cell without an eye has the view of its nearest neighbour with

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "semview/raycast/panorama_renderer.hpp"
-
 namespace semview::simulation {
 namespace {
 
@@ -15,19 +13,21 @@ namespace {
 constexpr PanoramaCamera kRing{120, 1, -1e-3, 1e-3};
 constexpr std::ptrdiff_t kMostMisses = kRing.columns / 10;
 
-bool is_indoors(const raycast::Scene& scene, const CellIndex& cell, double eye_z_m) {
+bool is_indoors(const raycast::Engine& engine, const CellIndex& cell, double eye_z_m) {
   raycast::PanoramaRequest request;
   request.map_from_robot = PoseGrid::center(cell);
   request.eye_z_m = eye_z_m;
   request.camera = kRing;
-  const raycast::Panorama ring = raycast::render_panorama(scene, request);
+  const raycast::Panorama ring = engine.panorama(request);
   const auto pixels = ring.labels.pixels();
   return std::count(pixels.begin(), pixels.end(), kNoHit) <= kMostMisses;
 }
 
 }  // namespace
 
-map::CellGrid indoor_cells(const map::CellGrid& grid, const raycast::Scene& scene, double eye_z_m) {
+map::CellGrid indoor_cells(const map::CellGrid& grid,
+                           const raycast::Engine& engine,
+                           double eye_z_m) {
   std::vector<std::uint8_t> facts;
   facts.reserve(static_cast<std::size_t>(grid.rows()) * static_cast<std::size_t>(grid.columns()));
   std::size_t indoors = 0;
@@ -36,7 +36,7 @@ map::CellGrid indoor_cells(const map::CellGrid& grid, const raycast::Scene& scen
       const CellIndex cell{grid.minimum().ix + column, grid.minimum().iy + row};
       // An eye in a slab, as in a closed door, sees nothing either way: such a cell stays.
       const bool stays =
-          grid.is_free(cell) && (!grid.has_eye(cell) || is_indoors(scene, cell, eye_z_m));
+          grid.is_free(cell) && (!grid.has_eye(cell) || is_indoors(engine, cell, eye_z_m));
       unsigned fact = 0;
       if (stays) fact |= map::CellGrid::kFree;
       if (grid.has_eye(cell)) fact |= map::CellGrid::kHasEye;

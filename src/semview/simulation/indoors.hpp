@@ -3,7 +3,7 @@
 #pragma once
 
 #include "semview/map/cell_grid.hpp"
-#include "semview/raycast/scene.hpp"
+#include "semview/raycast/engine.hpp"
 
 namespace semview::simulation {
 
@@ -11,7 +11,9 @@ namespace semview::simulation {
 /// there a camera sees a façade and the sky, which a floor plan says nothing about.
 ///
 /// Where that leaves less than half of the free cells, as in a plan without outer walls, all stay.
-/// @param scene  with its doors and windows shut
-map::CellGrid indoor_cells(const map::CellGrid& grid, const raycast::Scene& scene, double eye_z_m);
+/// @param engine  casts the building with its doors and windows shut
+map::CellGrid indoor_cells(const map::CellGrid& grid,
+                           const raycast::Engine& engine,
+                           double eye_z_m);
 
 }  // namespace semview::simulation

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -13,8 +15,8 @@
 #include "semview/io/run_log.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/extrusion.hpp"
+#include "semview/raycast/engine_choice.hpp"
 #include "semview/raycast/mesh_cell_grid.hpp"
-#include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/scene.hpp"
 #include "semview/simulation/free_space.hpp"
 #include "semview/simulation/indoors.hpp"
@@ -36,7 +38,7 @@ struct Moments {
 
 /// The building that the robot is in, and its way through it.
 struct Stage {
-  raycast::Scene scene;
+  raycast::EngineChoice choice;
   Moments moments;
 };
 
@@ -94,33 +96,65 @@ Result<Moments> drive_through(const map::CellGrid& grid,
   return moments;
 }
 
+/// Chooses what casts a building, which is `map` or, where there is one, its changed `plan`.
+Result<raycast::EngineChoice> engine_for(std::string_view name,
+                                         const map::SemanticMap& map,
+                                         const map::ColumnMap* plan,
+                                         const map::CellGrid& grid,
+                                         raycast::Scene scene,
+                                         const CameraConfig& camera) {
+  const ViewProfile profile{
+      {camera.columns, camera.rows, camera.elevation_min_rad, camera.elevation_max_rad},
+      camera.height_m};
+  ThreadPool pool;
+  return raycast::choose_engine(name,
+                                {map.id,
+                                 map.classes,
+                                 plan,
+                                 std::make_shared<const raycast::Scene>(std::move(scene)),
+                                 grid,
+                                 map.ground_height_m},
+                                profile,
+                                pool);
+}
+
 Result<Stage> set_stage(const map::SemanticMap& map,
                         const SimulationConfig& config,
                         SimulationReport& report) {
+  const CameraConfig& camera = config.camera;
+  const double eye_z_m = map.ground_height_m + camera.height_m;
   if (map.columns() == nullptr) {
-    SEMVIEW_TRY(raycast::Scene scene, raycast::Scene::build(map.mesh()->mesh));
+    SEMVIEW_TRY(raycast::Scene scene, raycast::Scene::build(map));
     SEMVIEW_TRY(const map::CellGrid grid,
-                raycast::build_cell_grid(scene, map.ground_height_m, config.camera.height_m));
-    const double eye_z_m = map.ground_height_m + config.camera.height_m;
-    SEMVIEW_TRY(Moments moments, drive_through(indoor_cells(grid, scene, eye_z_m), config, report));
-    return Stage{std::move(scene), std::move(moments)};
+                raycast::build_cell_grid(scene, map.ground_height_m, camera.height_m));
+    SEMVIEW_TRY(raycast::EngineChoice choice,
+                engine_for(config.engine, map, nullptr, grid, std::move(scene), camera));
+    SEMVIEW_TRY(Moments moments,
+                drive_through(indoor_cells(grid, *choice.engine, eye_z_m), config, report));
+    return Stage{std::move(choice), std::move(moments)};
   }
   Rng rng(config.seed, "layout");
   World world = vary_plan(map, scaled(config.world, config.noise_level), rng);
   report.objects = world.objects;
   report.furniture = world.furniture;
   report.missing = world.missing;
-  const map::CellGrid grid = map::build_cell_grid(world.plan, config.camera.height_m);
-  SEMVIEW_TRY(const raycast::Scene shut, raycast::Scene::build(map::extrude(world.plan)));
-  const double eye_z_m = world.plan.ground_height_m + config.camera.height_m;
-  SEMVIEW_TRY(Moments moments, drive_through(indoor_cells(grid, shut, eye_z_m), config, report));
+  const map::CellGrid grid = map::build_cell_grid(world.plan, camera.height_m);
+  SEMVIEW_TRY(raycast::Scene shut, raycast::Scene::build(map::extrude(world.plan)));
+  SEMVIEW_TRY(raycast::EngineChoice choice,
+              engine_for(config.engine, map, &world.plan, grid, std::move(shut), camera));
+  SEMVIEW_TRY(Moments moments,
+              drive_through(indoor_cells(grid, *choice.engine, eye_z_m), config, report));
   std::vector<Point2> way;
   for (const io::StampedPose2& sample : moments.groundtruth) {
     way.push_back({sample.pose.x_m, sample.pose.y_m});
   }
-  report.opened_doors = open_doors(world.plan, way, kDoorReach_m, config.camera.height_m);
+  report.opened_doors = open_doors(world.plan, way, kDoorReach_m, camera.height_m);
   SEMVIEW_TRY(raycast::Scene scene, raycast::Scene::build(map::extrude(world.plan)));
-  return Stage{std::move(scene), std::move(moments)};
+  // The engine of the shut building: open doors are no reason to check it again.
+  SEMVIEW_TRY(const raycast::EngineChoice opened,
+              engine_for(choice.engine->name(), map, &world.plan, grid, std::move(scene), camera));
+  choice.engine = opened.engine;
+  return Stage{std::move(choice), std::move(moments)};
 }
 
 /// Columns of a full turn that the camera shows: [first, last).
@@ -185,7 +219,7 @@ Result<double> record_frames(const map::SemanticMap& world,
     request.camera = {
         camera.columns, camera.rows, camera.elevation_min_rad, camera.elevation_max_rad};
     SEMVIEW_TRY_STATUS(raycast::validate(request));
-    const LabelImage truth = cut_out(raycast::render_panorama(stage.scene, request).labels, field);
+    const LabelImage truth = cut_out(stage.choice.engine->panorama(request).labels, field);
     Rng label_rng(config.seed, "segmentation", k);
     const LabelImage seen = add_segmentation_noise(
         truth, geometry, world.classes.size(), config.segmentation, config.noise_level, label_rng);
@@ -222,6 +256,7 @@ Status validate(const SimulationConfig& config) {
   if (!(config.world.missing_share >= 0.0 && config.world.missing_share <= 1.0)) {
     return out_of_range("missing_share", config.world.missing_share, "in [0, 1]");
   }
+  SEMVIEW_TRY_STATUS(raycast::check_engine_name(config.engine));
   const CameraConfig& camera = config.camera;
   if (!(camera.azimuth_width_rad > 0.0 && camera.azimuth_width_rad <= kTwoPi + 1e-9)) {
     return out_of_range(
@@ -247,6 +282,8 @@ Result<SimulationReport> simulate(const map::SemanticMap& world,
       simulate_odometry(moments.odometry, config.odometry, config.noise_level, odometry_rng);
   SEMVIEW_TRY_STATUS(log.finish(odometry, moments.groundtruth));
 
+  report.engine = stage.choice.engine->name();
+  report.engine_reason = stage.choice.reason;
   report.frames = static_cast<int>(moments.frames.size());
   report.way_m = moments.way_m;
   report.duration_s = moments.groundtruth.back().stamp_s;

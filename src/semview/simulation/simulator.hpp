@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "semview/core/result.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -39,6 +40,7 @@ struct SimulationConfig {
   DriveConfig drive;
   OdometryNoiseConfig odometry;
   SegmentationNoiseConfig segmentation;
+  std::string engine = "auto";  ///< what casts the frames: "auto", "columns" or "embree"
 };
 
 /// What a run was like; for people and scripts.
@@ -54,6 +56,8 @@ struct SimulationReport {
   int furniture = 0;
   int missing = 0;
   int opened_doors = 0;
+  std::string engine;
+  std::string engine_reason;
 };
 
 /// @errors kInvalidArgument: a value out of its range; `Error::field` names it.
