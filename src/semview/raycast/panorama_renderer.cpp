@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/raycast/panorama_renderer.hpp"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "semview/geometry/pose_grid.hpp"
+#include "semview/raycast/image_caster.hpp"
 #include "semview/raycast/plane_runs.hpp"
-#include "semview/raycast/ray_caster.hpp"
 #include "semview/view/view_profile.hpp"
 
 namespace semview::raycast {
@@ -25,25 +26,47 @@ class PanoramaRays {
     const PanoramaCamera& camera = request.camera;
     for (int c = 0; c < camera.columns; ++c) {
       const double azimuth = request.map_from_robot.yaw_rad + camera.azimuth_rad(c);
-      columns_.push_back(request.affine.apply({std::cos(azimuth), std::sin(azimuth), 0.0}));
+      const Eigen::Vector3d level =
+          request.affine.apply({std::cos(azimuth), std::sin(azimuth), 0.0});
+      level_x_.push_back(level.x());
+      level_y_.push_back(level.y());
     }
     for (int r = 0; r < camera.rows; ++r) {
       const double elevation = camera.elevation_rad(r);
-      rows_.emplace_back(std::cos(elevation), std::sin(elevation));
+      cosine_.push_back(std::cos(elevation));
+      sine_.push_back(static_cast<float>(std::sin(elevation)));
     }
   }
 
   RayDirection operator()(int row, int column) const {
-    const Eigen::Vector3d& level = columns_[static_cast<std::size_t>(column)];
-    const Eigen::Vector2d& tilt = rows_[static_cast<std::size_t>(row)];
-    return {static_cast<float>(tilt.x() * level.x()),
-            static_cast<float>(tilt.x() * level.y()),
-            static_cast<float>(tilt.y())};
+    const auto r = static_cast<std::size_t>(row);
+    const auto c = static_cast<std::size_t>(column);
+    return {static_cast<float>(cosine_[r] * level_x_[c]),
+            static_cast<float>(cosine_[r] * level_y_[c]),
+            sine_[r]};
+  }
+
+  void tile(const TilePlace& place, TileDirections& directions) const {
+    std::array<double, kTileColumns> x, y;
+    for (std::size_t k = 0; k < kTileColumns; ++k) {
+      x[k] = level_x_[static_cast<std::size_t>(place.columns[k])];
+      y[k] = level_y_[static_cast<std::size_t>(place.columns[k])];
+    }
+    for (std::size_t i = 0; i < kTileRows; ++i) {
+      const double cosine = cosine_[static_cast<std::size_t>(place.rows[i])];
+      const float sine = sine_[static_cast<std::size_t>(place.rows[i])];
+      for (std::size_t k = 0; k < kTileColumns; ++k) {
+        directions.x[i * kTileColumns + k] = static_cast<float>(cosine * x[k]);
+        directions.y[i * kTileColumns + k] = static_cast<float>(cosine * y[k]);
+        directions.z[i * kTileColumns + k] = sine;
+      }
+    }
   }
 
  private:
-  std::vector<Eigen::Vector3d> columns_;  // level, drawn metres per true metre
-  std::vector<Eigen::Vector2d> rows_;     // cosine and sine of the elevation
+  std::vector<double> level_x_, level_y_;  // of a column: drawn metres per true metre
+  std::vector<double> cosine_;             // of a row's elevation
+  std::vector<float> sine_;
 };
 
 RayCaster caster_at(const Scene& scene, const PanoramaRequest& request) {

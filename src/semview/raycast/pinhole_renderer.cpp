@@ -4,11 +4,12 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "semview/geometry/pose_grid.hpp"
-#include "semview/raycast/ray_caster.hpp"
+#include "semview/raycast/image_caster.hpp"
 
 namespace semview::raycast {
 namespace {
@@ -18,23 +19,57 @@ tl::unexpected<Error> wrong(std::string field, std::string message) {
 }
 
 /// Unit rays; their parameter is a length, of which `depth` is the part along the optical axis.
-struct PinholeRays {
-  explicit PinholeRays(const PinholeRequest& request)
-      : camera(request.camera), map_from_camera(request.map_from_camera.linear()) {}
+///
+/// The ray through a pixel is what its column and its row contribute, added up and made a unit
+/// vector: a pixel takes a square root and no rotation.
+class PinholeRays {
+ public:
+  explicit PinholeRays(const PinholeRequest& request) {
+    const PinholeCamera& camera = request.camera;
+    const Eigen::Matrix3d map_from_camera = request.map_from_camera.linear();
+    for (int c = 0; c < camera.columns; ++c) {
+      const double u = camera.direction(0, c).x();
+      columns_.push_back({map_from_camera.col(0) * u + map_from_camera.col(2), u * u + 1.0});
+    }
+    for (int r = 0; r < camera.rows; ++r) {
+      const double v = camera.direction(r, 0).y();
+      rows_.push_back({map_from_camera.col(1) * v, v * v});
+    }
+  }
 
   RayDirection operator()(int row, int column) const {
-    const Eigen::Vector3d direction = map_from_camera * camera.direction(row, column).normalized();
-    return {static_cast<float>(direction.x()),
-            static_cast<float>(direction.y()),
-            static_cast<float>(direction.z())};
+    const Part& level = columns_[static_cast<std::size_t>(column)];
+    const Part& tilt = rows_[static_cast<std::size_t>(row)];
+    const double scale = 1.0 / std::sqrt(level.squared + tilt.squared);
+    return {static_cast<float>((level.ray.x() + tilt.ray.x()) * scale),
+            static_cast<float>((level.ray.y() + tilt.ray.y()) * scale),
+            static_cast<float>((level.ray.z() + tilt.ray.z()) * scale)};
+  }
+
+  void tile(const TilePlace& place, TileDirections& directions) const {
+    for (std::size_t i = 0; i < kTileRows; ++i) {
+      for (std::size_t k = 0; k < kTileColumns; ++k) {
+        const RayDirection d = (*this)(place.rows[i], place.columns[k]);
+        const std::size_t lane = i * kTileColumns + k;
+        directions.x[lane] = d.x;
+        directions.y[lane] = d.y;
+        directions.z[lane] = d.z;
+      }
+    }
   }
 
   float depth(int row, int column, float range_m) const {
-    return static_cast<float>(range_m / camera.direction(row, column).norm());
+    return static_cast<float>(range_m /
+                              std::sqrt(columns_[static_cast<std::size_t>(column)].squared +
+                                        rows_[static_cast<std::size_t>(row)].squared));
   }
 
-  PinholeCamera camera;
-  Eigen::Matrix3d map_from_camera;
+ private:
+  struct Part {
+    Eigen::Vector3d ray;
+    double squared;  ///< length in the optical frame
+  };
+  std::vector<Part> columns_, rows_;
 };
 
 template <typename CastImage>

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The loop that a reader of Embree's manual writes: what the renderers are measured against.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "semview/map/triangle_mesh.hpp"
+#include "semview/raycast/panorama_renderer.hpp"
+
+namespace semview::raycast {
+
+/// Where a view's rays go, row by row; unit vectors.
+std::vector<std::array<float, 3>> directions_of(const PanoramaRequest& request);
+
+/// A scene of the best build quality, not robust, and one rtcIntersect1 a ray.
+class PlainRays {
+ public:
+  explicit PlainRays(const map::TriangleMesh& mesh);
+  ~PlainRays();
+
+  /// `directions` are those of the request, made beforehand: only casting is measured.
+  Panorama cast(const PanoramaRequest& request,
+                const std::vector<std::array<float, 3>>& directions) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+  std::vector<ClassId> labels_;
+};
+
+}  // namespace semview::raycast
