@@ -17,7 +17,7 @@
 namespace semview::simulation {
 namespace {
 
-class SimulatorTest : public testing::Test {
+class SimulatorTest : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() /
