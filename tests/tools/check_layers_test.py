@@ -99,8 +99,8 @@ class CheckLayersTest(unittest.TestCase):
             "modules by their full names")
 
     def test_a_module_links_what_it_includes(self):
-        self.replace("src/semview/raycast/CMakeLists.txt", "USES core geometry view map",
-                     "USES core geometry view")
+        self.replace("src/semview/raycast/CMakeLists.txt", "USES core geometry semantics view map",
+                     "USES core geometry semantics view")
         self.expect_only(
             "src/semview/raycast/CMakeLists.txt: raycast includes headers of map and does not link it")
 
