@@ -56,27 +56,23 @@ TEST_F(LoadTest, AGreedyClientDoesNotStarveAnother) {
   const std::string large = score_request(id, 2000).SerializeAsString();
   v1::RequestHeader header = RawClient::header("Score");
   header.set_client_name("greedy");
-  const auto greedy_cells = [this] { return server_->counters().cells_by_client["greedy"]; };
-  EXPECT_FALSE(greedy.ask(header, large).header.has_error());
-  const std::uint64_t cells_of_a_large_request = greedy_cells();
   constexpr int kLarge = 100;
   for (int i = 0; i < kLarge; ++i) greedy.send(header, large);
   ASSERT_TRUE(eventually([this] { return server_->counters().in_flight >= kLarge / 2; }));
 
   header.set_client_name("robot");
   const std::string small = score_request(id, 1).SerializeAsString();
-  constexpr int kSmall = 20;
-  std::uint64_t most = 0;
-  for (int i = 0; i < kSmall; ++i) {
-    const std::uint64_t before = greedy_cells();
+  for (int i = 0; i < 5; ++i) {
+    server::ServerCounters before = server_->counters();
+    // Still under load, or the test says nothing.
+    ASSERT_GT(before.in_flight, 10U);
     EXPECT_FALSE(robot.ask(header, small).header.has_error());
-    most = std::max(most, greedy_cells() - before);
+    // In turn of arrival all of the greedy client's work would be done first. How much of it is
+    // depends on how long an answer travels on a busy machine; FairQueueTest counts tasks.
+    const std::uint64_t meanwhile =
+        server_->counters().cells_by_client["greedy"] - before.cells_by_client["greedy"];
+    EXPECT_LT(meanwhile, before.queued_cells / 4);
   }
-  // Still under load, or the test says nothing.
-  ASSERT_GT(server_->counters().in_flight, 10U);
-  // A small request is two tasks (plan and chunk); each waits for the one at work and may let one
-  // more go first, and some end while the answer travels. All together never a large request.
-  EXPECT_LT(most, cells_of_a_large_request / 2);
 }
 
 TEST_F(LoadTest, OverloadIsRefusedAtOnce) {
