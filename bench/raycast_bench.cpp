@@ -11,8 +11,8 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "plain_rays.hpp"
 #include "semview/benchmark/office_plan.hpp"
+#include "semview/benchmark/plain_rays.hpp"
 #include "semview/benchmark/subject.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
@@ -71,11 +71,11 @@ double seconds_of(const Render& render) {
 /// Least times of one view each way, one after the other, added up over poses.
 void print_ratio(int columns) {
   constexpr int kPoses = 8, kRepetitions = 12;
-  static const PlainRays loop(office().mesh);
+  static const benchmark::PlainRays loop(office().mesh);
   double robust_s = 0.0, plain_s = 0.0, runs_s = 0.0, singles_s = 0.0, loop_s = 0.0;
   for (int pose = 0; pose < kPoses; ++pose) {
     const PanoramaRequest request = view_request(columns, pose * 5);
-    const auto directions = directions_of(request);
+    const auto directions = benchmark::directions_of(request);
     std::array<double, 5> least_s;
     least_s.fill(1e9);
     for (int i = 0; i < kRepetitions; ++i) {

@@ -10,6 +10,7 @@
 #include "semview/benchmark/measurement.hpp"
 #include "semview/benchmark/numpy_projection.hpp"
 #include "semview/benchmark/peer.hpp"
+#include "semview/benchmark/plain_rays.hpp"
 #include "semview/benchmark/point_projection.hpp"
 #include "semview/raycast/column_renderer.hpp"
 
@@ -91,14 +92,14 @@ Status label_runs_and_packets(const Circumstances& in, Row& row) {
       });
 }
 
-Status packets_and_single_rays(const Circumstances& in, Row& row) {
+Status packets_and_plain_rays(const Circumstances& in, Row& row) {
+  const PlainRays loop(in.subject.mesh);
+  const auto directions = directions_of(in.subject.request({0, 0}, in.camera));
   return compare_casters(
       in,
       row,
       [&](const PanoramaRequest& view) { return packets(in.subject, view); },
-      [&](const PanoramaRequest& view) {
-        return raycast::render_panorama_single_rays(*in.subject.scene, view);
-      });
+      [&](const PanoramaRequest& view) { return loop.cast(view, directions); });
 }
 
 /// The rays of a view as the peer takes them.
@@ -248,7 +249,7 @@ std::vector<RowKind> cast_rows() {
           "Embree packets; a plain rtcIntersect1 loop",
           {at_least(3.4), at_least(3.4)},
           Plans::kAll,
-          packets_and_single_rays),
+          packets_and_plain_rays),
       row("open3d",
           "Embree packets; Open3D RaycastingScene",
           {at_least(4.0), at_least(4.0)},

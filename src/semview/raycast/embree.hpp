@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Embree 3 or 4 under one set of names. Internal to this module: no other header names Embree.
+/// Embree 3 or 4 under one set of names. For sources of this module, and for the plain loop that it
+/// is measured against: no other header names Embree.
 ///
 /// Only calls that both versions have are used: single rays and packets of 16. The stream calls
 /// (1M, NM, Np) are gone in Embree 4.

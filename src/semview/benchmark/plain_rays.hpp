@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The loop that a reader of Embree's manual writes: what the renderers are measured against.
+/// The loop over rtcIntersect1 that a reader of Embree's manual writes.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 #include "semview/map/triangle_mesh.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 
-namespace semview::raycast {
+namespace semview::benchmark {
 
 /// Where a view's rays go, row by row; unit vectors.
-std::vector<std::array<float, 3>> directions_of(const PanoramaRequest& request);
+std::vector<std::array<float, 3>> directions_of(const raycast::PanoramaRequest& request);
 
 /// A scene of the best build quality, not robust, and one rtcIntersect1 a ray.
 class PlainRays {
@@ -21,8 +21,8 @@ class PlainRays {
   ~PlainRays();
 
   /// `directions` are those of the request, made beforehand: only casting is measured.
-  Panorama cast(const PanoramaRequest& request,
-                const std::vector<std::array<float, 3>>& directions) const;
+  raycast::Panorama cast(const raycast::PanoramaRequest& request,
+                         const std::vector<std::array<float, 3>>& directions) const;
 
  private:
   struct Embree;
@@ -30,4 +30,4 @@ class PlainRays {
   std::vector<ClassId> labels_;
 };
 
-}  // namespace semview::raycast
+}  // namespace semview::benchmark

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plain_rays.hpp"
+#include "semview/benchmark/plain_rays.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 
-#include <embree3/rtcore.h>
+#include "semview/raycast/embree.hpp"
 
-namespace semview::raycast {
+namespace semview::benchmark {
+
+using raycast::Panorama;
+using raycast::PanoramaRequest;
 
 struct PlainRays::Embree {
   RTCDevice device = rtcNewDevice(nullptr);
@@ -56,8 +59,6 @@ Panorama PlainRays::cast(const PanoramaRequest& request,
                          const std::vector<std::array<float, 3>>& directions) const {
   Panorama panorama{LabelImage(request.camera.rows, request.camera.columns),
                     RangeImage(request.camera.rows, request.camera.columns)};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     RTCRayHit query;
     query.ray.org_x = static_cast<float>(request.map_from_robot.x_m);
@@ -73,7 +74,7 @@ Panorama PlainRays::cast(const PanoramaRequest& request,
     query.ray.flags = 0;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree_->scene, &context, &query);
+    raycast::intersect_one(embree_->scene, query);
     const bool hit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     panorama.labels.pixels()[i] = hit ? labels_[query.hit.primID] : kNoHit;
     panorama.ranges_m.pixels()[i] = query.ray.tfar;
@@ -81,4 +82,4 @@ Panorama PlainRays::cast(const PanoramaRequest& request,
   return panorama;
 }
 
-}  // namespace semview::raycast
+}  // namespace semview::benchmark
