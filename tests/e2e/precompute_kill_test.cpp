@@ -31,7 +31,8 @@ const std::string kMap = std::string(SEMVIEW_SOURCE_DIR) + "/maps/duplex_level1"
 
 class PrecomputeKillTest : public ::testing::Test {
  protected:
-  /// `semview precompute` on a duplex level, at a third of the default's pixels.
+  /// `semview precompute` on a duplex level, at a third of the default's pixels, by the engine that
+  /// takes long enough to be interrupted.
   std::unique_ptr<ChildProcess> start(const std::string& cache, const std::string& threads) const {
     return std::make_unique<ChildProcess>("semview",
                                           std::vector<std::string>{"precompute",
@@ -40,6 +41,8 @@ class PrecomputeKillTest : public ::testing::Test {
                                                                    (folder_ / cache).string(),
                                                                    "--threads",
                                                                    threads,
+                                                                   "--engine",
+                                                                   "embree",
                                                                    "--columns",
                                                                    "240",
                                                                    "--rows",
