@@ -53,6 +53,7 @@ TEST(GoldenViewsTest, ColumnsViewsAreThoseOfTheirVersion) {
   };
   EXPECT_EQ(ColumnsEngine::kVersion, 1U);
   EXPECT_EQ(digest_of_views(engine_of, false), "20b7d4e3ed7aa1940f7072e5979a303a");
+  EXPECT_EQ(digest_of_views(engine_of, true), "9113e3ed473a82d2ad55630404eccf09");
 }
 
 }  // namespace
