@@ -212,6 +212,7 @@ void add_precompute_verb(CLI::App& app, int& exit_code) {
       "the same command goes on where it stopped. The stored bytes do not depend on the number of\n"
       "threads. Progress is a line on a terminal, JSON lines (one object a line) otherwise.");
   add_site_options(*verb, options->site);
+  add_ranges_option(*verb, options->site);
   verb->add_option("--region", options->region, "Only cells in this rectangle, metres")
       ->type_name("X0,Y0,X1,Y1");
   verb->add_option("--reachable-from",

@@ -32,8 +32,6 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
   verb.add_option("--elevation", options.elevation_deg, "Lowest and highest elevation, degrees")
       ->type_name("MIN,MAX")
       ->capture_default_str();
-  verb.add_flag(
-      "--ranges", options.ranges, "Views of cells carry ranges, and are stored with them");
   verb.add_option("--cache", options.cache_directory, "Keep views in this directory")
       ->type_name("DIR");
   verb.add_option("--cache-limit",
@@ -60,13 +58,18 @@ void add_engine_option(CLI::App& verb, std::string& engine) {
       ->capture_default_str();
 }
 
+void add_ranges_option(CLI::App& verb, SiteOptions& options) {
+  verb.add_flag("--ranges",
+                options.ranges,
+                "Store the views with ranges, for a semview-server --ranges; scores need none");
+}
+
 Status check_no_site_options(const CLI::App& verb) {
   for (const char* option : {"--engine",
                              "--eye-height",
                              "--columns",
                              "--rows",
                              "--elevation",
-                             "--ranges",
                              "--cache",
                              "--cache-limit",
                              "--nearest-colour"}) {

@@ -30,14 +30,16 @@ struct SiteOptions {
   bool nearest_colour = false;
 };
 
-/// Adds MAP, --engine, --eye-height, --columns, --rows, --elevation, --ranges, --cache,
-/// --cache-limit,
+/// Adds MAP, --engine, --eye-height, --columns, --rows, --elevation, --cache, --cache-limit,
 /// --threads and --nearest-colour. `map_required` is false for verbs that may ask a server instead.
 /// `options` must outlive the parse.
 void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required = true);
 
 /// Adds --engine alone; its default is the environment variable SEMVIEW_ENGINE, else auto.
 void add_engine_option(CLI::App& verb, std::string& engine);
+
+/// Adds --ranges, where views of cells are asked for their ranges.
+void add_ranges_option(CLI::App& verb, SiteOptions& options);
 
 /// Where `verb` asks a server: none of the options that are the server's own choice was given.
 /// @errors kInvalidArgument, with the option as the field.

@@ -104,6 +104,13 @@ TEST_F(UsageTest, OptionsWithoutEffectAreRefused) {
   expect_usage({"view", kMap, "--pose", "1,-5,0", "--pinhole", pinhole, "--columns", "120"},
                "--columns");
   expect_usage({"view", kMap, "--pose", "1,-5,0", "--cache", file("cache")}, "--cache");
+  expect_usage({"view", kMap, "--pose", "1,-5,0", "--ranges"}, "--ranges");
+  expect_usage({"score", kMap, "--obs", "o", "--weights", "w", "--pose", "1,-5,0", "--ranges"},
+               "--ranges");
+  expect_usage({"heatmap", kMap, "--obs", "o", "--weights", "w", "-o", "x.png", "--ranges"},
+               "--ranges");
+  expect_usage({"localize", "--log", "l", "--map", kMap, "--global", "-o", "e.tum", "--ranges"},
+               "--ranges");
   expect_usage({"view", kMap, "--pose", "1,-5,0", "--threads", "-1"},
                "--threads: Value -1 not in range");
 }
