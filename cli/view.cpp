@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/range_png.hpp"
-#include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/picture/view_picture.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
@@ -25,11 +20,10 @@
 #include "semview/service/site.hpp"
 #include "site_options.hpp"
 #include "verb.hpp"
+#include "view_summary.hpp"
 
 namespace semview::cli {
 namespace {
-
-using nlohmann::ordered_json;
 
 struct Options {
   SiteOptions site;
@@ -38,14 +32,6 @@ struct Options {
   std::string affine;
   std::string labels_file, range_file, image_file, range_image_file;
   bool json = false;
-};
-
-/// A cast view of either camera.
-struct View {
-  LabelImage labels;
-  RangeImage distances_m;
-  std::optional<PanoramaCamera> panorama;  // none: a pinhole view, distances are depths
-  double cast_ms = 0.0;
 };
 
 Result<Pose2> read_pose(const Options& options) {
@@ -98,114 +84,22 @@ Result<View> cast(const service::Site& site, const Options& options, const Pose2
   const auto start = std::chrono::steady_clock::now();
   if (options.pinhole.empty()) {
     view.panorama = site.profile().camera;
-    SEMVIEW_TRY(raycast::Panorama panorama,
-                name_option(site.exact_panorama({pose, eye_z_m, *view.panorama, affine})));
+    const raycast::PanoramaRequest request{pose, eye_z_m, *view.panorama, affine};
+    SEMVIEW_TRY(raycast::Panorama panorama, name_option(site.exact_panorama(request)));
+    view.engine = site.panorama_engine(request);
     view.labels = std::move(panorama.labels);
     view.distances_m = std::move(panorama.ranges_m);
   } else {
     SEMVIEW_TRY(const PinholeCamera camera, read_pinhole(options.pinhole));
     SEMVIEW_TRY(raycast::PinholeView pinhole,
                 name_option(site.exact_pinhole({level_camera(pose, eye_z_m), camera})));
+    view.engine = site.pinhole_engine();
     view.labels = std::move(pinhole.labels);
     view.distances_m = std::move(pinhole.depths_m);
   }
   view.cast_ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return view;
-}
-
-/// What keeps the eye from seeing the map as a robot would, or an empty text.
-std::string eye_trouble(const service::Site& site, const Pose2& pose) {
-  const map::ColumnMap* columns = site.map().columns();
-  if (columns == nullptr) {
-    const auto cell = PoseGrid::cell(pose.x_m, pose.y_m);
-    return cell && site.cells().has_eye(*cell) ? "" : "the eye is inside something or outside";
-  }
-  const ColumnProfile* profile = columns->at(pose.x_m, pose.y_m);
-  if (profile == nullptr || profile->outside) return "the eye is outside the building";
-  const double eye_z_m = site.eye_z_m(site.profile().eye_height_m);
-  for (const Slab& slab : profile->slabs) {
-    if (eye_z_m > slab.z_min_m && eye_z_m < slab.z_max_m) {
-      return fmt::format("the eye is inside a {}", site.map().classes.name(slab.label));
-    }
-  }
-  if (columns->ceiling && eye_z_m >= columns->ceiling->height_m) {
-    return "the eye is above the ceiling";
-  }
-  return "";
-}
-
-ordered_json class_shares(const View& view, const ClassTable& classes) {
-  std::array<std::size_t, 256> counts{};
-  for (const ClassId label : view.labels.pixels()) ++counts[label];
-  const auto pixels = static_cast<double>(view.labels.pixels().size());
-  ordered_json shares = ordered_json::array();
-  for (std::size_t id = 0; id < counts.size(); ++id) {
-    if (counts[id] == 0) continue;
-    shares.push_back({{"id", id},
-                      {"name", std::string(classes.name(static_cast<ClassId>(id)))},
-                      {"pixels", counts[id]},
-                      {"share", static_cast<double>(counts[id]) / pixels}});
-  }
-  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
-    return a["pixels"].template get<std::size_t>() > b["pixels"].template get<std::size_t>();
-  });
-  return shares;
-}
-
-ordered_json camera_json(const View& view) {
-  ordered_json camera{{"kind", view.panorama ? "panorama" : "pinhole"},
-                      {"columns", view.labels.columns()},
-                      {"rows", view.labels.rows()}};
-  if (view.panorama) {
-    camera["elevation_deg"] = {deg_from_rad(view.panorama->elevation_min_rad),
-                               deg_from_rad(view.panorama->elevation_max_rad)};
-  }
-  return camera;
-}
-
-ordered_json summary(const service::Site& site,
-                     const Options& options,
-                     const Pose2& pose,
-                     const View& view) {
-  ordered_json result{
-      {"map", site.id()},
-      {"fingerprint", to_hex(site.map().fingerprint)},
-      {"engine", site.engine().name},
-      {"engine_reason", site.engine().reason},
-      {"pose", {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"yaw_deg", deg_from_rad(pose.yaw_rad)}}},
-      {"eye_z_m", site.eye_z_m(options.site.eye_height_m)},
-      {"camera", camera_json(view)},
-      {"cast_ms", view.cast_ms}};
-  const float nearest_m = *std::ranges::min_element(view.distances_m.pixels());
-  const char* const nearest = view.panorama ? "nearest_range_m" : "nearest_depth_m";
-  result[nearest] = std::isfinite(nearest_m) ? ordered_json(nearest_m) : ordered_json(nullptr);
-  result["classes"] = class_shares(view, site.map().classes);
-  if (const std::string trouble = eye_trouble(site, pose); !trouble.empty()) {
-    result["warning"] = trouble;
-  }
-  return result;
-}
-
-void print_text(const ordered_json& view) {
-  const ordered_json& pose = view["pose"];
-  fmt::print("{} from ({:g}, {:g}) at {:g}°, eye at z {:g} m: {} x {} {} by {} in {:.2f} ms\n",
-             view["map"].get<std::string>(),
-             pose["x_m"].get<double>(),
-             pose["y_m"].get<double>(),
-             pose["yaw_deg"].get<double>(),
-             view["eye_z_m"].get<double>(),
-             view["camera"]["columns"].get<int>(),
-             view["camera"]["rows"].get<int>(),
-             view["camera"]["kind"].get<std::string>(),
-             view["engine"].get<std::string>(),
-             view["cast_ms"].get<double>());
-  for (const ordered_json& entry : view["classes"]) {
-    fmt::print("{:>5}  {:<16} {:5.1f} %\n",
-               entry["id"].get<int>(),
-               entry["name"].get<std::string>(),
-               100.0 * entry["share"].get<double>());
-  }
 }
 
 Status write_files(const service::Site& site,
@@ -247,14 +141,15 @@ Status show(const Options& options) {
   SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
   SEMVIEW_TRY(const View view, cast(*site, options, pose));
   SEMVIEW_TRY_STATUS(write_files(*site, options, pose, view));
-  const ordered_json result = summary(*site, options, pose, view);
+  const nlohmann::ordered_json result =
+      view_summary(*site, pose, site->eye_z_m(options.site.eye_height_m), view);
   if (result.contains("warning")) {
     fmt::print(stderr, "semview: warning: {}\n", result["warning"].get<std::string>());
   }
   if (options.json) {
     fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
-    print_text(result);
+    print_view_summary(result);
   }
   return {};
 }

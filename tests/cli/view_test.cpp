@@ -63,9 +63,11 @@ TEST_F(ViewVerbTest, WritesTheIdsAndMillimetresOfAPanorama) {
 
 TEST_F(ViewVerbTest, WritesAPinholeView) {
   ASSERT_EQ(view(kMap + " --pose 2.35,-3.05,90 --pinhole 100,110,60,40,121,83 --labels " +
-                 file("ids.png") + " --range " + file("mm.png")),
+                 file("ids.png") + " --range " + file("mm.png") + " --engine columns --json"),
             0)
       << err();
+  EXPECT_THAT(out(), ::testing::HasSubstr("\"engine\": \"embree\""));
+  EXPECT_THAT(out(), ::testing::HasSubstr("\"pinhole views are cast by Embree\""));
   const raycast::PinholeView truth = raycast::render_pinhole(
       scene(), {level_camera({2.35, -3.05, kPi / 2.0}, 1.2), {121, 83, 100.0, 110.0, 60.0, 40.0}});
   EXPECT_EQ(io::read_png_grey(file("ids.png")).value(), truth.labels);
@@ -119,6 +121,9 @@ TEST_F(ViewVerbTest, SaysWhatIsWrongWithAnOption) {
 TEST_F(ViewVerbTest, WarnsOfAnEyeThatIsOutsideOrInAWall) {
   EXPECT_EQ(view(kMap + " --pose 50,50,0"), 0);
   EXPECT_THAT(err(), ::testing::HasSubstr("outside the building"));
+  EXPECT_EQ(view(SEMVIEW_SOURCE_DIR "/maps/tutorial --pose 0.15,0.15,0 --json"), 0);
+  EXPECT_THAT(err(), ::testing::HasSubstr("the eye is inside a wall"));
+  EXPECT_THAT(out(), ::testing::HasSubstr("\"engine\": \"embree\""));
 }
 
 }  // namespace

@@ -90,6 +90,36 @@ TEST_F(SiteTest, ACellInAWallHasTheViewOfItsNeighbourAndOneFarOutsideNone) {
   EXPECT_EQ(batch->origins.total(), 1U);
 }
 
+TEST_F(SiteTest, WhereEnginesDifferEmbreeCastsTheExactViewsOfBoth) {
+  SiteConfig config;
+  config.engine = "columns";
+  const auto columns = open(map_, config);
+  config.engine = "embree";
+  const auto embree = open(map_, config);
+  const auto expect_embree = [&](double x_m, double y_m, double z_m, const std::string& reason) {
+    const raycast::PanoramaRequest request{{x_m, y_m, 0.4}, z_m, {240, 30, -0.6, 0.6}, {}};
+    EXPECT_EQ(columns->panorama_engine(request).name, "embree");
+    EXPECT_EQ(columns->panorama_engine(request).reason, reason);
+    EXPECT_EQ(embree->panorama_engine(request).reason, "it was asked for");
+    const auto one = columns->exact_panorama(request);
+    const auto other = embree->exact_panorama(request);
+    ASSERT_TRUE(one && other);
+    EXPECT_EQ(one->labels, other->labels);
+    EXPECT_EQ(one->ranges_m, other->ranges_m);
+  };
+  expect_embree(-0.45, 1.05, 1.2, "the eye is inside a wall, and such views are cast by Embree");
+  expect_embree(0.95, 1.05, 0.72, "the eye is inside a table, and such views are cast by Embree");
+  for (const double z_m : {2.6, 3.0}) {
+    expect_embree(
+        0.03, 0.91, z_m, "the eye is above the ceiling, and such views are cast by Embree");
+  }
+  // Over the table, and past the plan, a cell could have its eye for all that engines care.
+  EXPECT_EQ(columns->panorama_engine({{0.95, 1.05, 0.4}, 1.2, {}, {}}).name, "columns");
+  EXPECT_EQ(columns->panorama_engine({{50.0, 50.0, 0.4}, 1.2, {}, {}}).name, "columns");
+  EXPECT_EQ(columns->pinhole_engine().name, "embree");
+  EXPECT_EQ(columns->pinhole_engine().reason, "pinhole views are cast by Embree");
+}
+
 TEST_F(SiteTest, ExactViewsAreTheRenderersAndKeepToTheLimit) {
   const auto site = open(map_);
   raycast::PanoramaRequest request;

@@ -11,7 +11,9 @@
 #include "semview/cache/memory_tier.hpp"
 #include "semview/cache/view_cache.hpp"
 #include "semview/map/cell_grid.hpp"
+#include "semview/map/eye_place.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/raycast/embree_engine.hpp"
 #include "semview/raycast/engine_choice.hpp"
 #include "semview/raycast/engine_view_source.hpp"
 #include "semview/raycast/mesh_cell_grid.hpp"
@@ -51,6 +53,28 @@ Result<map::CellGrid> build_cells(const map::SemanticMap& map,
     return map::build_cell_grid(*columns, eye_height_m);
   }
   return raycast::build_cell_grid(scene, map.ground_height_m, eye_height_m);
+}
+
+EngineChoice embree_because(std::string reason) {
+  return {std::string(raycast::EmbreeEngine::kName),
+          raycast::EmbreeEngine::kVersion,
+          std::move(reason)};
+}
+
+/// Why the engine of cells does not cast this view; empty if it does.
+std::string unlike_cells(const map::SemanticMap& map, const raycast::PanoramaRequest& request) {
+  const map::ColumnMap* columns = map.columns();
+  if (columns == nullptr) return {};
+  const Pose2& eye = request.map_from_robot;
+  const map::EyePlace place = map::eye_place(*columns, eye.x_m, eye.y_m, request.eye_z_m);
+  if (place.in_slab) {
+    return fmt::format("the eye is inside a {}, and such views are cast by Embree",
+                       map.classes.name(*place.in_slab));
+  }
+  if (place.above_ceiling) {
+    return "the eye is above the ceiling, and such views are cast by Embree";
+  }
+  return {};
 }
 
 }  // namespace
@@ -173,10 +197,23 @@ double Site::eye_z_m(double eye_height_m) const {
   return parts_->map.ground_height_m + eye_height_m;
 }
 
+EngineChoice Site::panorama_engine(const raycast::PanoramaRequest& request) const {
+  if (parts_->engine.name == raycast::EmbreeEngine::kName) return parts_->engine;
+  std::string reason = unlike_cells(parts_->map, request);
+  return reason.empty() ? parts_->engine : embree_because(std::move(reason));
+}
+
+EngineChoice Site::pinhole_engine() const {
+  return embree_because("pinhole views are cast by Embree");
+}
+
 Result<raycast::Panorama> Site::exact_panorama(const raycast::PanoramaRequest& request) const {
   SEMVIEW_TRY_STATUS(raycast::validate(request));
   SEMVIEW_TRY_STATUS(check_pixels(request.camera.columns, request.camera.rows));
-  return parts_->caster->panorama(request);
+  if (panorama_engine(request).name == parts_->engine.name) {
+    return parts_->caster->panorama(request);
+  }
+  return raycast::render_panorama(*parts_->scene, request);
 }
 
 Result<raycast::PinholeView> Site::exact_pinhole(const raycast::PinholeRequest& request) const {

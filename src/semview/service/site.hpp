@@ -88,11 +88,12 @@ class Site {
   const map::SemanticMap& map() const;
   /// Free cells and cells with an eye at the profile's eye height.
   const map::CellGrid& cells() const;
+  /// The engine of views of cells.
   const EngineChoice& engine() const;
   const ViewProfile& profile() const;
   /// What the records of this site's views are filed under.
   const cache::Keyspace& keyspace() const;
-  /// For pinhole views, which only Embree casts.
+  /// The triangles that Embree casts.
   const raycast::Scene& scene() const;
 
   /// Cached views of any cell: a cell without an eye has the view of its nearest neighbour with
@@ -103,6 +104,11 @@ class Site {
 
   /// Height of an eye in frame `map`.
   double eye_z_m(double eye_height_m) const;
+  /// What casts a view of exactly this pose: the engine of cells but for panoramas from where no
+  /// cell has its eye, inside a slab or above the ceiling. There engines differ
+  /// (docs/columns.md), and Embree casts them all. Pinhole views are Embree's always.
+  EngineChoice panorama_engine(const raycast::PanoramaRequest& request) const;
+  EngineChoice pinhole_engine() const;
   /// Views of exactly this pose, not of its cell; never cached.
   /// @errors kInvalidArgument: pose or camera; kResourceExhausted: above the limit of pixels.
   Result<raycast::Panorama> exact_panorama(const raycast::PanoramaRequest& request) const;
