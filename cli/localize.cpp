@@ -19,6 +19,7 @@
 #include "client/robot/run_outputs.hpp"
 #include "localize_options.hpp"
 #include "localize_scorer.hpp"
+#include "localize_start.hpp"
 #include "semview/core/log.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/run_log.hpp"

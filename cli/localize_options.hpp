@@ -5,11 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 
 #include "client/robot/localizer.hpp"
-#include "semview/geometry/pose_grid.hpp"
 #include "semview/localization/odometry_motion_model.hpp"
 #include "semview/localization/particle_set.hpp"
 #include "semview/localization/position_noise_model.hpp"
@@ -61,11 +59,5 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
 Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options);
 Result<std::shared_ptr<const localization::MotionModel>> motion_model(
     const LocalizeOptions& options);
-
-/// Around --init, which must lie near one of `free_cells`, or over them with --global.
-/// @errors kInvalidArgument: --init is no pose or far from the map; kFailedPrecondition: no free
-/// cell.
-Result<localization::ParticleSet> first_particles(const LocalizeOptions& options,
-                                                  std::span<const CellIndex> free_cells);
 
 }  // namespace semview::cli
