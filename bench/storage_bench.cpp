@@ -31,6 +31,7 @@
 #include "semview/view/view_codec.hpp"
 #include "semview/view/view_model.hpp"
 #include "storage_codings.hpp"
+#include "storage_likelihoods.hpp"
 
 namespace semview::bench {
 namespace {
@@ -230,48 +231,6 @@ int print_table(const std::string& name, const map::ColumnMap& plan) {
   return good ? 0 : 1;
 }
 
-/// In place of an encoder: counts the answers.
-class AnswerCounter {
- public:
-  static constexpr bool kDecodes = false;
-  using Counts = std::vector<std::pair<double, double>>;
-
-  AnswerCounter(Counts& counts, double weight) : counts_(counts), weight_(weight) {}
-  void count_for(const detail::ViewSituations& situations) { situations_ = &situations; }
-  bool code(detail::AdaptiveBit& situation, bool yes) {
-    const std::size_t place = situations_->place_of(situation);
-    if (place < counts_.size()) (yes ? counts_[place].second : counts_[place].first) += weight_;
-    return yes;
-  }
-  std::uint32_t code_plain(std::uint32_t value, unsigned /*count*/) { return value; }
-
- private:
-  Counts& counts_;
-  double weight_;
-  const detail::ViewSituations* situations_ = nullptr;
-};
-
-void count_answers(const map::ColumnMap& plan, AnswerCounter::Counts& counts) {
-  const Blocks blocks = cast_blocks(plan, false);
-  AnswerCounter counter(counts, 1.0 / (64.0 * static_cast<double>(blocks.size())));
-  for (const std::vector<ColumnView>& block : blocks) {
-    for (const ColumnView& view : block) {
-      detail::ColumnWalk walk(counter, view.columns(), view.rows(), false);
-      counter.count_for(walk.situations());
-      for (int c = 0; c < view.columns(); ++c) walk.code_column(view.column(c), {});
-    }
-  }
-}
-
-void print_likelihoods(const AnswerCounter::Counts& counts) {
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto& [no, yes] = counts[i];
-    const int of_256 = static_cast<int>(256.0 * (yes + 0.002) / (no + yes + 0.004));
-    fmt::print("{}{},", i % 16 == 0 ? "\n    " : " ", std::clamp(of_256, 1, 254));
-  }
-  fmt::print("\n");
-}
-
 int run(std::vector<std::string> arguments) {
   const bool likelihoods = !arguments.empty() && arguments.front() == "--likelihoods";
   if (likelihoods) arguments.erase(arguments.begin());
@@ -281,7 +240,7 @@ int run(std::vector<std::string> arguments) {
       arguments.push_back(std::string(SEMVIEW_SOURCE_DIR "/maps/") + name);
     }
   }
-  AnswerCounter::Counts counts(detail::ViewSituations::kCount);
+  AnswerCounts counts(detail::ViewSituations::kCount);
   int code = 0;
   for (const std::string& path : arguments) {
     const auto loaded = map::load_map(path);
@@ -292,7 +251,7 @@ int run(std::vector<std::string> arguments) {
       return 1;
     }
     if (likelihoods) {
-      count_answers(*plan, counts);
+      count_answers(cast_blocks(*plan, false), counts);
     } else {
       code = std::max(code, print_table(loaded->id, *plan));
     }
