@@ -47,6 +47,7 @@ struct Target {
   std::string map_id;
   client::ConnectionConfig connection;
   std::unique_ptr<server::Server> server;
+  std::size_t threads = 0;  ///< of `server`
 };
 
 Result<Target> open_target(const Options& options) {
@@ -61,6 +62,7 @@ Result<Target> open_target(const Options& options) {
   }
   SEMVIEW_TRY(std::shared_ptr<service::Site> site, open_site(options.site));
   target.map_id = site->id();
+  target.threads = site->pool().threads();
   service::MapRegistry maps;
   SEMVIEW_TRY_STATUS(maps.add(std::move(site)));
   server::ServerConfig config;
@@ -72,11 +74,18 @@ Result<Target> open_target(const Options& options) {
   return target;
 }
 
+/// A search begins no run that could end later than this.
+constexpr double kSearchSeconds = 180.0;
+
 struct Findings {
+  std::string map_id;
+  std::string engine;
+  std::size_t threads = 0;  ///< of the server; 0: one in another process, which does not tell
   std::size_t cores = 0;
   client::KernelTime kernel;
   std::vector<LoadStep> steps;
   std::optional<std::size_t> most_robots;
+  bool settled = false;
 
   double ceiling(const Options& options) const {
     return kernel.robots(cores, options.load.rate_hz);
@@ -95,10 +104,23 @@ Result<LoadReport> load(const Options& options,
 Result<Findings> measure(Options options) {
   const LoadKind kind = options.kind == "global" ? LoadKind::kGlobal : LoadKind::kTracking;
   SEMVIEW_TRY_STATUS(validate(options.load));
+  constexpr double kLongestSearchedRun_s = 60.0;
+  if (options.search && options.load.seconds > kLongestSearchedRun_s) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("--seconds {:g}: expected at most {:g} with --search, which ends "
+                                  "after {:g} s",
+                                  options.load.seconds,
+                                  kLongestSearchedRun_s,
+                                  kSearchSeconds),
+                      "--seconds"});
+  }
   SEMVIEW_TRY(const Target target, open_target(options));
   SEMVIEW_TRY(const auto work, client::LoadWork::prepare(target.connection, target.map_id, kind));
   SEMVIEW_TRY(const auto views, client::RemoteViewSource::open(target.connection, target.map_id));
   Findings findings;
+  findings.map_id = target.map_id;
+  findings.engine = views->map().engine;
+  findings.threads = target.threads;
   findings.cores = std::max(std::thread::hardware_concurrency(), 1U);
   // Also has the server cast every view that the robots will need.
   SEMVIEW_TRY(findings.kernel, client::kernel_time(work, *views));
@@ -115,13 +137,32 @@ Result<Findings> measure(Options options) {
     return findings;
   }
   const auto first = static_cast<std::size_t>(findings.ceiling(options) / 2.0);
-  SEMVIEW_TRY(auto found, client::find_most_robots(first, client::kMaxRobots, run));
+  const double run_s =
+      options.load.seconds + std::chrono::duration<double>(options.load.timeout).count();
+  fmt::print(stderr,
+             "searching for at most {:.0f} s: up to {} runs of at most {:g} s\n",
+             kSearchSeconds,
+             client::kMaxSearchSteps,
+             run_s);
+  const TimePoint end =
+      steady_clock().now() +
+      std::chrono::duration_cast<Duration>(std::chrono::duration<double>(kSearchSeconds - run_s));
+  SEMVIEW_TRY(auto found, client::find_most_robots(first, client::kMaxRobots, run, [end] {
+                return steady_clock().now() <= end;
+              }));
+  findings.settled = found.settled;
   findings.steps = std::move(found.steps);
   findings.most_robots = found.robots;
   return findings;
 }
 
 void print_text(const Options& options, const Findings& findings) {
+  fmt::print("map {}, engine {}, {}, {} cores\n",
+             findings.map_id,
+             findings.engine,
+             findings.threads == 0 ? "threads as the server has them"
+                                   : fmt::format("{} server threads", findings.threads),
+             findings.cores);
   fmt::print("{} load, {} cache, {:g} Hz a robot; times in ms from the intended start\n",
              options.kind,
              options.cold ? "cold" : "warm",
@@ -167,7 +208,8 @@ void print_text(const Options& options, const Findings& findings) {
       kernel.score_ms,
       ceiling);
   if (findings.most_robots) {
-    fmt::print("held: {} robots with 99 of 100 answers within {} ms, {:.0f} % of the ceiling\n",
+    fmt::print("held: {}{} robots with 99 of 100 answers within {} ms, {:.0f} % of the ceiling\n",
+               findings.settled ? "" : "at least ",
                *findings.most_robots,
                options.load.in_time.count(),
                100.0 * static_cast<double>(*findings.most_robots) / ceiling);
@@ -175,16 +217,20 @@ void print_text(const Options& options, const Findings& findings) {
 }
 
 void print_json(const Options& options, const Findings& findings) {
-  ordered_json json{{"load", options.kind},
-                    {"cold", options.cold},
-                    {"rate_hz", options.load.rate_hz},
-                    {"seconds", options.load.seconds},
-                    {"in_time_ms", options.load.in_time.count()},
-                    {"cores", findings.cores},
-                    {"prepare_ms", findings.kernel.prepare_ms},
-                    {"score_ms", findings.kernel.score_ms},
-                    {"ceiling_robots", findings.ceiling(options)},
-                    {"runs", ordered_json::array()}};
+  ordered_json json{
+      {"map", findings.map_id},
+      {"engine", findings.engine},
+      {"threads", findings.threads == 0 ? ordered_json(nullptr) : ordered_json(findings.threads)},
+      {"load", options.kind},
+      {"cold", options.cold},
+      {"rate_hz", options.load.rate_hz},
+      {"seconds", options.load.seconds},
+      {"in_time_ms", options.load.in_time.count()},
+      {"cores", findings.cores},
+      {"prepare_ms", findings.kernel.prepare_ms},
+      {"score_ms", findings.kernel.score_ms},
+      {"ceiling_robots", findings.ceiling(options)},
+      {"runs", ordered_json::array()}};
   for (const auto& [robots, report] : findings.steps) {
     json["runs"].push_back({{"robots", robots},
                             {"cycles", report.cycles},
@@ -200,7 +246,10 @@ void print_json(const Options& options, const Findings& findings) {
                             {"goodput_hz", report.goodput_hz()},
                             {"worst_start_ms", report.worst_start_ms}});
   }
-  if (findings.most_robots) json["most_robots"] = *findings.most_robots;
+  if (findings.most_robots) {
+    json["most_robots"] = *findings.most_robots;
+    json["settled"] = findings.settled;
+  }
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -227,7 +276,9 @@ void add_bench_load_verb(CLI::App& bench, int& exit_code) {
                                   options->server,
                                   "A server on this machine, for example tcp://127.0.0.1:5560; MAP "
                                   "is then one of its ids. Default: one in this process");
-  verb->add_option("--robots", options->load.robots, "How many robots")->capture_default_str();
+  verb->get_option("--threads")->excludes(server);
+  auto* robots =
+      verb->add_option("--robots", options->load.robots, "How many robots")->capture_default_str();
   verb->add_option("--rate", options->load.rate_hz, "Cycles a second of each, Hz")
       ->capture_default_str();
   verb->add_option("--seconds", options->load.seconds, "How long cycles begin, s")
@@ -244,7 +295,8 @@ void add_bench_load_verb(CLI::App& bench, int& exit_code) {
   verb->add_flag("--search",
                  options->search,
                  "Find the most robots of whom 99 in 100 have their answers within 250 ms; 16 runs "
-                 "at most");
+                 "and 180 s at most")
+      ->excludes(robots);
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer("Example: semview bench load maps/duplex_level1 --load tracking --search");
   verb->callback([verb, options, &exit_code] { exit_code = report(run(*verb, *options)); });

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <ctime>
 #include <deque>
@@ -47,6 +48,19 @@ std::vector<std::string> own_addresses() {
   return addresses;
 }
 
+/// In digits: 127.0.0.0/8, ::1 in brackets, or an address of this machine's own.
+bool is_own_address(const std::string& host) {
+  in_addr v4{};
+  if (::inet_pton(AF_INET, host.c_str(), &v4) == 1) {
+    constexpr std::uint32_t kLoopbackNet = 127;
+    return ntohl(v4.s_addr) >> 24U == kLoopbackNet || std::ranges::count(own_addresses(), host) > 0;
+  }
+  if (!host.starts_with('[') || !host.ends_with(']')) return false;
+  in6_addr v6{};
+  return ::inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), &v6) == 1 &&
+         IN6_IS_ADDR_LOOPBACK(&v6);
+}
+
 /// Raises the limit on open files as far as it goes without asking anybody.
 std::size_t allowed_descriptors() {
   rlimit limit{};
@@ -64,8 +78,8 @@ Status check_is_this_machine(const std::string& endpoint) {
   const std::size_t colon = endpoint.rfind(':');
   if (endpoint.starts_with(kScheme) && colon != std::string::npos && colon > kScheme.size()) {
     const std::string host = endpoint.substr(kScheme.size(), colon - kScheme.size());
-    if (host.starts_with("127.") || host == "localhost" || host == "[::1]") return {};
-    if (std::ranges::count(own_addresses(), host) > 0) return {};
+    // A name that only looks like an address (127.0.0.1.example.org) is another machine's.
+    if (host == "localhost" || is_own_address(host)) return {};
   }
   return fail(Error{ErrorCode::kInvalidArgument,
                     fmt::format("--server {}: a load is for a server on this machine, for example "

@@ -9,15 +9,17 @@ bool holds(const LoadReport& report) { return 100 * report.in_time >= 99 * repor
 
 Result<MostRobots> find_most_robots(std::size_t first,
                                     std::size_t most,
-                                    const std::function<Result<LoadReport>(std::size_t)>& run) {
+                                    const std::function<Result<LoadReport>(std::size_t)>& run,
+                                    const std::function<bool()>& time_left) {
   MostRobots found;
   std::size_t too_many = most + 1;
   std::size_t next = std::clamp<std::size_t>(first, 1, most);
-  while (found.steps.size() < kMaxSearchSteps) {
+  while (found.steps.size() < kMaxSearchSteps && (found.steps.empty() || time_left())) {
     SEMVIEW_TRY(const LoadReport report, run(next));
     found.steps.push_back({next, report});
     (holds(report) ? found.robots : too_many) = next;
-    if (too_many - found.robots <= std::max<std::size_t>(1, found.robots / 20)) break;
+    found.settled = too_many - found.robots <= std::max<std::size_t>(1, found.robots / 20);
+    if (found.settled) break;
     if (found.robots == 0) {
       next = too_many / 2;
     } else if (too_many > most) {

@@ -22,16 +22,19 @@ struct LoadStep {
 
 struct MostRobots {
   std::size_t robots = 0;       ///< the most that were held; 0: not even one
+  bool settled = false;         ///< no more than a twentieth above `robots` is left untried
   std::vector<LoadStep> steps;  ///< in the order in which they were tried
 };
 
 /// Doubles or halves from `first` until the limit is between two numbers, then halves the gap until
 /// it is a twentieth; `kMaxSearchSteps` runs at most.
 /// @param run  Loads the server with so many robots.
+/// @param time_left  Asked before each run but the first; false ends the search.
 /// @errors those of `run`
 Result<MostRobots> find_most_robots(std::size_t first,
                                     std::size_t most,
-                                    const std::function<Result<LoadReport>(std::size_t)>& run);
+                                    const std::function<Result<LoadReport>(std::size_t)>& run,
+                                    const std::function<bool()>& time_left);
 
 inline constexpr std::size_t kMaxSearchSteps = 16;
 

@@ -75,10 +75,17 @@ TEST_F(LoadServerTest, TheKernelTimeIsThatOfPreparingAndScoring) {
 
 TEST(DealerWireTest, OnlyThisMachineIsLoaded) {
   using client::check_is_this_machine;
-  for (const char* own : {"tcp://127.0.0.1:5560", "tcp://localhost:1", "tcp://127.1.2.3:5560"}) {
+  for (const char* own :
+       {"tcp://127.0.0.1:5560", "tcp://localhost:1", "tcp://127.1.2.3:5560", "tcp://[::1]:5560"}) {
     EXPECT_TRUE(check_is_this_machine(own)) << own;
   }
-  for (const char* other : {"tcp://192.0.2.1:5560", "tcp://example.org:5560", "ipc:///tmp/x", ""}) {
+  for (const char* other : {"tcp://192.0.2.1:5560",
+                            "tcp://example.org:5560",
+                            "tcp://127.0.0.1.example.org:5560",
+                            "tcp://127.evil.example:5560",
+                            "tcp://[2001:db8::1]:5560",
+                            "ipc:///tmp/x",
+                            ""}) {
     EXPECT_EQ(check_is_this_machine(other).error().field, "--server") << other;
   }
 }

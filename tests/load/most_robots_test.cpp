@@ -8,12 +8,16 @@ namespace {
 
 /// A server that holds `limit` robots.
 Result<MostRobots> search(std::size_t first, std::size_t limit, std::size_t most = 1000) {
-  return find_most_robots(first, most, [limit](std::size_t robots) -> Result<LoadReport> {
-    LoadReport report;
-    report.cycles = 100;
-    report.in_time = robots <= limit ? 99 : 98;
-    return report;
-  });
+  return find_most_robots(
+      first,
+      most,
+      [limit](std::size_t robots) -> Result<LoadReport> {
+        LoadReport report;
+        report.cycles = 100;
+        report.in_time = robots <= limit ? 99 : 98;
+        return report;
+      },
+      [] { return true; });
 }
 
 TEST(MostRobotsTest, TheLimitIsFoundWithinATwentieth) {
@@ -39,14 +43,30 @@ TEST(MostRobotsTest, NoMoreThanAllowedAreTried) {
   EXPECT_EQ(found->robots, 60U);
 }
 
+TEST(MostRobotsTest, WhenTheTimeIsUpTheSearchEndsUnsettled) {
+  LoadReport held;
+  held.cycles = held.in_time = 100;
+  int left = 2;
+  const auto found = find_most_robots(
+      1, 1000, [&](std::size_t) -> Result<LoadReport> { return held; }, [&] { return left-- > 0; });
+  EXPECT_EQ(found->steps.size(), 3U);
+  EXPECT_EQ(found->robots, 4U);
+  EXPECT_FALSE(found->settled);
+  EXPECT_TRUE(search(1, 10)->settled);
+}
+
 TEST(MostRobotsTest, AnErrorEndsTheSearch) {
   int runs = 0;
-  const auto found = find_most_robots(1, 10, [&runs](std::size_t) -> Result<LoadReport> {
-    if (++runs == 3) return fail(ErrorCode::kUnavailable, "gone");
-    LoadReport report;
-    report.cycles = report.in_time = 1;
-    return report;
-  });
+  const auto found = find_most_robots(
+      1,
+      10,
+      [&runs](std::size_t) -> Result<LoadReport> {
+        if (++runs == 3) return fail(ErrorCode::kUnavailable, "gone");
+        LoadReport report;
+        report.cycles = report.in_time = 1;
+        return report;
+      },
+      [] { return true; });
   EXPECT_EQ(found.error().code, ErrorCode::kUnavailable);
 }
 
