@@ -15,6 +15,7 @@
 #include "semview/core/version.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/text_file.hpp"
+#include "site_options.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -48,9 +49,11 @@ ordered_json to_json(const Row& row) {
     json["ratio"] = found.ratio;
     json["ratio_median"] = found.ratio_median;
     json["rounds"] = found.rounds;
+    if (!found.clock.empty()) json["clock"] = found.clock;
     json["agreement"] = found.agreement;
   }
   if (const auto reached = row.reached()) json["reached"] = *reached;
+  if (const auto then = row.reached_then()) json["reached_then"] = *then;
   if (!row.note.empty()) json["note"] = row.note;
   if (row.disagrees) json["disagrees"] = true;
   return json;
@@ -75,7 +78,7 @@ void show_progress(const benchmark::Progress& progress) {
 Status run(const Options& options) {
   if (options.list) {
     for (const benchmark::Claim& claim : benchmark::claims()) {
-      fmt::print("{:<12} {}\n", claim.id, claim.text);
+      fmt::print("{:<18} {}\n", claim.id, claim.text);
     }
     return {};
   }
@@ -160,6 +163,7 @@ void add_bench_verb(CLI::App& app, int& exit_code) {
                   options->suite.quick,
                   "A small plan, one round: whether results agree; its times say nothing");
   bench->add_flag("--list", options->list, "List the rows");
+  add_engine_option(*bench, options->suite.engine);
   auto* json = bench->add_flag("--json", options->json, "Print JSON");
   bench->add_flag("--markdown", options->markdown, "Print a table for Markdown")->excludes(json);
   bench->footer("Example: semview bench maps/duplex_level1 --only single,compass --threads 1");

@@ -69,7 +69,7 @@ MODULES = {
     "simulation": Module(VIEW | {"io", "map", "raycast", "localization"}, set()),
     "evaluation": Module(SERVICE | {"service", "localization", "observation", "simulation", "picture"},
                          set()),
-    "benchmark": Module(SERVICE | {"service", "picture"}, {"zstd", "Highway"}),
+    "benchmark": Module(SERVICE | {"service", "picture", "observation"}, {"zstd", "Highway"}),
     "server": Module(SERVICE | {"service", "protocol"}, {"ZeroMQ", "CLI11"}),
     "client/lib": Module(VIEW | {"similarity", "protocol"}, {"ZeroMQ"}),
     "client/load": Module(VIEW | {"similarity", "protocol", "client/lib"}, {"ZeroMQ"}),

@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "bench/results.json"
 PAGE = ROOT / "docs/scaling.md"
 CELLS_A_M2 = 100
+POSTERIOR_CELLS = 100_000  # those of the row "posterior": 12 M poses
 
 # What, square metres, how they come about.
 PLACES = [
@@ -48,8 +49,8 @@ Measured on {plan}, 360 × 90 pixels, one thread:
 - **Cast** is casting alone; coding and storing a view add some 25 µs ([RESULTS.md](../bench/RESULTS.md)).
 - **Memory** is what the scorer reads without decoding. A server needs the part that its robots are on: the tier forgets
   what was not used for longest, and a view that is missing is cast again in the time of the first row.
-- **One image against every cell and heading** is for a robot that knows nothing. It is {headings} headings a cell, and is
-  asked once; a robot that is tracked asks for some hundred cells.
+- **One image against every cell and heading** is the dense posterior, views in memory, for a robot that knows nothing: the
+  probability of {headings} headings a cell, asked once; a robot that is tracked asks for some hundred cells.
 """
 
 
@@ -93,10 +94,12 @@ def page():
     # Two rows time the same packets; the least is nearest to what they can.
     packets = min(labels["other"], find(rows, "columns", plan)["other"])
     compass = find(rows, "compass", plan)["ours"]
+    posterior = find(rows, "posterior", plan)["ours"] / POSTERIOR_CELLS
     measured = [
         ("a view cast by columns", duration(labels["ours"])),
         ("cast by Embree packets", duration(packets)),
-        ("compared at 120 headings", duration(compass)),
+        ("compared at 120 headings, alone", duration(compass)),
+        ("the same as a cell of the dense posterior", duration(posterior)),
         ("stored", size(bytes_a_view)),
         ("held in memory", size(held)),
     ]
@@ -105,7 +108,7 @@ def page():
         cells = area_m2 * CELLS_A_M2
         lines.append([name, f"{number(area_m2)} m²", number(cells), size(cells * bytes_a_view),
                       size(cells * held), duration(cells * labels["ours"]),
-                      duration(cells * packets), duration(cells * compass)])
+                      duration(cells * packets), duration(cells * posterior)])
     return TEXT.format(
         cells=CELLS_A_M2,
         plan=plan,

@@ -11,6 +11,7 @@ namespace semview::benchmark {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 TEST(SuiteTest, ResultsAgreeInEveryRowOrItsPeerIsNotInstalled) {
@@ -41,6 +42,25 @@ TEST(SuiteTest, RowsAreChosenByName) {
   EXPECT_EQ(rows->front().id, "bytes");
 }
 
+TEST(SuiteTest, LabelsAloneSayNothingOfRangesAndPrecomputeNamesItsEngine) {
+  SuiteConfig config;
+  config.quick = true;
+  config.threads = {1};
+  config.engine = "embree";
+  config.only = {"labels", "precompute", "precompute_embree", "ready"};
+  const auto rows = run_suite(config, [](const Progress&) {});
+  ASSERT_TRUE(rows);
+  for (const Row& row : *rows) {
+    ASSERT_TRUE(row.found) << row.id << ": " << row.note;
+    if (row.id == "labels") {
+      EXPECT_THAT(row.found->agreement, Not(HasSubstr("ranges")));
+      EXPECT_EQ(row.found->clock, "thread");
+    } else {
+      EXPECT_THAT(row.found->agreement, HasSubstr(row.id == "precompute" ? "columns" : "embree"));
+    }
+  }
+}
+
 TEST(SuiteTest, WhatCannotBeMeasuredIsRefusedByItsOption) {
   SuiteConfig config;
   config.only = {"telepathy"};
@@ -50,6 +70,8 @@ TEST(SuiteTest, WhatCannotBeMeasuredIsRefusedByItsOption) {
   config.only.clear();
   config.threads = {0};
   EXPECT_EQ(run_suite(config, [](const Progress&) {}).error().field, "--threads");
+  config.engine = "steam";
+  EXPECT_EQ(run_suite(config, [](const Progress&) {}).error().field, "--engine");
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ void Agreement::add_labels(const LabelImage& ours, const LabelImage& other) {
 
 void Agreement::add(const raycast::Panorama& ours, const raycast::Panorama& other) {
   add_labels(ours.labels, other.labels);
+  if (ours.ranges_m.pixels().empty() || other.ranges_m.pixels().empty()) return;
   for (std::size_t i = 0; i < ours.labels.pixels().size(); ++i) {
     // A pixel on an edge belongs to either of two surfaces.
     if (ours.labels.pixels()[i] != other.labels.pixels()[i]) continue;
@@ -45,7 +46,8 @@ std::string Agreement::text() const {
 }
 
 Status Agreement::check() const {
-  const std::int64_t allowed = std::max<std::int64_t>(4, pixels_ / 20'000);
+  const std::int64_t allowed =
+      std::max(kFewTies, static_cast<std::int64_t>(ties_ * static_cast<double>(pixels_)));
   if (different_ <= allowed && far_ranges_ <= allowed) return {};
   return fail(ErrorCode::kInternal, "results differ: " + text());
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <vector>
 
 namespace semview::benchmark {
@@ -13,15 +14,32 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Seconds an item of one pass over all of them.
-double pass_s(const Contender& contender, ThreadPool& pool) {
+/// Of the calling thread, in which a pool of one thread does all.
+double thread_s() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double read(TurnsClock clock) { return clock == TurnsClock::kThread ? thread_s() : now_s(); }
+
+/// Seconds an item of some passes over all of them.
+double item_s(const Contender& contender, int passes, ThreadPool& pool) {
   // A few tasks a thread: as the service cuts its work, and no thread ends long before the others.
   const std::size_t grain = std::max<std::size_t>(1, contender.items / (8 * pool.threads()));
-  const double start_s = now_s();
-  pool.parallel_for(contender.items, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) contender.item(i);
-  });
-  return (now_s() - start_s) / static_cast<double>(contender.items);
+  const TurnsClock clock = clock_for(pool);
+  const double start_s = read(clock);
+  for (int pass = 0; pass < passes; ++pass) {
+    pool.parallel_for(contender.items, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) contender.item(i);
+    });
+  }
+  return (read(clock) - start_s) / (passes * static_cast<double>(contender.items));
+}
+
+double turn_s(const Contender& contender, int passes, ThreadPool& pool) {
+  contender.item(0);
+  return item_s(contender, passes, pool);
 }
 
 class Samples {
@@ -36,20 +54,29 @@ class Samples {
   std::vector<double> seconds_;
 };
 
-int passes_for(double wanted_s, double pass_s) {
-  constexpr double kMostPasses = 100.0;
-  return static_cast<int>(std::clamp(std::floor(wanted_s / pass_s), 1.0, kMostPasses));
+}  // namespace
+
+TurnsClock clock_for(const ThreadPool& pool) {
+  return pool.threads() == 1 ? TurnsClock::kThread : TurnsClock::kWall;
 }
 
-}  // namespace
+std::string_view name_of(TurnsClock clock) {
+  return clock == TurnsClock::kThread ? "thread" : "wall";
+}
+
+int passes_for(double wanted_s, double pass_s) {
+  constexpr double kMostPasses = 100.0;
+  if (!(pass_s > 0.0)) return 1;
+  return static_cast<int>(std::clamp(std::floor(wanted_s / pass_s), 1.0, kMostPasses));
+}
 
 Turns take_turns(const Contender& ours,
                  const Contender& other,
                  ThreadPool& pool,
                  const TurnsConfig& config) {
   const double begin_s = now_s();
-  const double ours_s = pass_s(ours, pool) * static_cast<double>(ours.items);
-  const double other_s = pass_s(other, pool) * static_cast<double>(other.items);
+  const double ours_s = item_s(ours, 1, pool) * static_cast<double>(ours.items);
+  const double other_s = item_s(other, 1, pool) * static_cast<double>(other.items);
   const int our_passes = passes_for(other_s / 10.0, ours_s);
   const int other_passes = passes_for(ours_s / 10.0, other_s);
   Samples our_samples;
@@ -57,23 +84,24 @@ Turns take_turns(const Contender& ours,
   Turns turns;
   while (turns.rounds < config.fewest_rounds ||
          (turns.rounds < config.most_rounds && now_s() - begin_s < config.budget_s)) {
-    for (int i = 0; i < our_passes; ++i) our_samples.add(pass_s(ours, pool));
-    for (int i = 0; i < other_passes; ++i) other_samples.add(pass_s(other, pool));
+    our_samples.add(turn_s(ours, our_passes, pool));
+    other_samples.add(turn_s(other, other_passes, pool));
     ++turns.rounds;
   }
   turns.ours = our_samples.timing();
   turns.other = other_samples.timing();
+  turns.clock = clock_for(pool);
   return turns;
 }
 
 Timing time_alone(const Contender& work, ThreadPool& pool, const TurnsConfig& config) {
   const double begin_s = now_s();
-  static_cast<void>(pass_s(work, pool));
+  static_cast<void>(item_s(work, 1, pool));
   Samples samples;
   for (int round = 0; round < config.fewest_rounds ||
                       (round < config.most_rounds && now_s() - begin_s < config.budget_s);
        ++round) {
-    samples.add(pass_s(work, pool));
+    samples.add(item_s(work, 1, pool));
   }
   return samples.timing();
 }

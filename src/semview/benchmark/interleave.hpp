@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string_view>
 
 #include "semview/core/thread_pool.hpp"
 
@@ -16,7 +17,13 @@ struct Contender {
   std::function<void(std::size_t)> item;
 };
 
-/// Seconds an item, by the clock, over all rounds.
+/// What a time is read from: of one thread the processor time that it had, so that what else the
+/// machine does counts for neither side; of several the wall.
+enum class TurnsClock { kThread, kWall };
+TurnsClock clock_for(const ThreadPool& pool);
+std::string_view name_of(TurnsClock clock);
+
+/// Seconds an item over all rounds.
 struct Timing {
   double least_s = 0.0;
   double median_s = 0.0;
@@ -25,7 +32,8 @@ struct Timing {
 struct Turns {
   Timing ours;
   Timing other;
-  int rounds = 0;
+  int rounds = 0;                        ///< as many samples of each
+  TurnsClock clock = TurnsClock::kWall;  ///< of both
 
   /// How many times as long the other takes. On a busy machine the least times tell most.
   double ratio() const { return other.least_s / ours.least_s; }
@@ -38,9 +46,10 @@ struct TurnsConfig {
   int most_rounds = 200;
 };
 
-/// Ours, then the other, round after round in this process: what else the machine does meets both
-/// alike. The quicker one is repeated within a round until it has a tenth of the other's time. The
-/// first round only warms up.
+/// Ours, then the other, round after round in this process, by the same clock: what else the
+/// machine does meets both alike. A turn begins with one item that is not timed and gives one
+/// sample, so that both have as many; the quicker one repeats its items until a turn has a tenth of
+/// the other's time. The first pass of each only warms up.
 Turns take_turns(const Contender& ours,
                  const Contender& other,
                  ThreadPool& pool,
@@ -48,5 +57,9 @@ Turns take_turns(const Contender& ours,
 
 /// One alone, in the same way.
 Timing time_alone(const Contender& work, ThreadPool& pool, const TurnsConfig& config);
+
+/// How many passes of `pass_s` seconds come nearest to `wanted_s` from below, 1 to 100; 1 where a
+/// pass is too short for the clock.
+int passes_for(double wanted_s, double pass_s);
 
 }  // namespace semview::benchmark

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Circumstances {
   PanoramaCamera camera;
   ThreadPool& pool;
   const Extent& extent;
+  const std::string& engine;  ///< of rows that open a site
 };
 
 /// Fills in a row's finding, or its note.
@@ -51,10 +53,11 @@ struct RowKind {
 
 std::vector<RowKind> cast_rows();
 std::vector<RowKind> score_rows();
+std::vector<RowKind> floor_rows();
 std::vector<RowKind> storage_rows();
 std::vector<RowKind> site_rows();
 
-Goal at_least(double ratio);
+Goal at_least(double ratio, std::optional<double> then = {});
 
 /// An item of work whose results are kept, as the program would: `make(i)` gives the i-th.
 template <typename Made, typename Make>

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "semview/benchmark/measurement.hpp"
+#include "semview/raycast/engine_choice.hpp"
 
 namespace semview::benchmark {
 namespace {
@@ -70,7 +71,8 @@ Result<std::vector<LazySubject>> subjects_of(const SuiteConfig& config) {
 
 std::vector<RowKind> all_kinds() {
   std::vector<RowKind> kinds = detail::cast_rows();
-  for (auto* more : {&detail::score_rows, &detail::storage_rows, &detail::site_rows}) {
+  for (auto* more :
+       {&detail::score_rows, &detail::floor_rows, &detail::storage_rows, &detail::site_rows}) {
     for (RowKind& kind : (*more)()) kinds.push_back(std::move(kind));
   }
   return kinds;
@@ -126,6 +128,7 @@ std::vector<Job> jobs_of(const SuiteConfig& config,
 }
 
 Status check(const SuiteConfig& config, const std::vector<RowKind>& kinds) {
+  SEMVIEW_TRY_STATUS(raycast::check_engine_name(config.engine));
   std::vector<std::string> ids;
   for (const RowKind& kind : kinds) ids.push_back(kind.id);
   for (const std::string& wanted : config.only) {
@@ -150,7 +153,11 @@ double now_s() {
 
 }  // namespace
 
-Goal detail::at_least(double ratio) { return {fmt::format("at least {:g}x", ratio), ratio}; }
+Goal detail::at_least(double ratio, std::optional<double> then) {
+  std::string text = fmt::format("at least {:g}x", ratio);
+  if (then) text += fmt::format(", then {:g}x", *then);
+  return {std::move(text), ratio, then};
+}
 
 std::vector<Claim> claims() {
   std::vector<Claim> claims;
@@ -182,7 +189,8 @@ Result<std::vector<Row>> run_suite(const SuiteConfig& config,
     std::unique_ptr<ThreadPool>& pool = pools[job.row.threads];
     if (pool == nullptr)
       pool = std::make_unique<ThreadPool>(static_cast<std::size_t>(job.row.threads));
-    if (const Status status = job.kind->measure({*subject, job.camera, *pool, extent}, job.row);
+    if (const Status status =
+            job.kind->measure({*subject, job.camera, *pool, extent, config.engine}, job.row);
         !status) {
       job.row.note = status.error().message;
       job.row.disagrees = status.error().code == ErrorCode::kInternal;

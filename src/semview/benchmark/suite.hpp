@@ -20,6 +20,7 @@ struct SuiteConfig {
   std::vector<std::filesystem::path> maps = {};  ///< besides the generated plans
   std::vector<std::string> only = {};            ///< ids of rows; empty: all
   std::vector<std::size_t> threads = {1, 2};
+  std::string engine = "auto";  ///< of rows that open a map as the service does
   /// One small plan, small panoramas and as few rounds as can be: checks that results agree, and
   /// its times say nothing.
   bool quick = false;

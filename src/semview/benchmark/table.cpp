@@ -23,21 +23,39 @@ std::string least_and_median(double least, double median, const std::string& uni
   return fmt::format("{} ({})", shown(least, unit), shown(median, unit));
 }
 
+bool meets(const Finding& found, const Goal& goal, double bound) {
+  const double value = goal.of_ours ? found.ours : found.ratio;
+  return goal.at_most ? value <= bound : value >= bound;
+}
+
 std::string goal_text(const Row& row) {
   const std::optional<bool> reached = row.reached();
   if (!reached) return row.goal.text;
-  return row.goal.text + (*reached ? ", yes" : ", no");
+  std::string text = row.goal.text + (*reached ? ": yes" : ": no");
+  if (const std::optional<bool> then = row.reached_then()) text += *then ? ", yes" : ", no";
+  return text;
 }
 
-const Line kHeads = {"claim", "plan", "size", "threads", "first", "second", "ratio", "goal", ""};
+const Line kHeads = {"row",
+                     "claim",
+                     "plan",
+                     "size",
+                     "threads",
+                     "clock",
+                     "ours",
+                     "the alternative",
+                     "ratio",
+                     "goal",
+                     ""};
 
 Line cells_of(const Row& row) {
-  Line line = {row.claim, row.subject, row.size, std::to_string(row.threads)};
+  Line line = {row.id, row.claim, row.subject, row.size, std::to_string(row.threads)};
   if (!row.found) {
-    line.insert(line.end(), {"-", "-", "-", row.goal.text, row.note});
+    line.insert(line.end(), {"-", "-", "-", "-", row.goal.text, row.note});
     return line;
   }
   const Finding& found = *row.found;
+  line.push_back(found.clock.empty() ? "-" : found.clock);
   line.push_back(least_and_median(found.ours, found.ours_median, found.unit));
   line.push_back(
       found.other == 0.0 ? "-" : least_and_median(found.other, found.other_median, found.unit));
@@ -62,13 +80,18 @@ Finding finding_of(const Turns& turns, std::string agreement) {
           turns.ratio(),
           turns.median_ratio(),
           turns.rounds,
+          std::string(name_of(turns.clock)),
           std::move(agreement)};
 }
 
 std::optional<bool> Row::reached() const {
   if (!found || goal.text.empty()) return std::nullopt;
-  const double value = goal.of_ours ? found->ours : found->ratio;
-  return goal.at_most ? value <= goal.value : value >= goal.value;
+  return meets(*found, goal, goal.value);
+}
+
+std::optional<bool> Row::reached_then() const {
+  if (!found || !goal.then) return std::nullopt;
+  return meets(*found, goal, *goal.then);
 }
 
 std::string shown(double value, const std::string& unit) {

@@ -20,6 +20,7 @@ struct Finding {
   double ratio = 0.0;  ///< of the least: other / ours, or as the claim words it
   double ratio_median = 0.0;
   int rounds = 0;
+  std::string clock;      ///< "thread" or "wall"; "": no time
   std::string agreement;  ///< how far the results are the same
 };
 
@@ -28,8 +29,9 @@ Finding finding_of(const Turns& turns, std::string agreement);
 
 /// What a claim is held to.
 struct Goal {
-  std::string text;  ///< "at least 22x"; "": none
+  std::string text;  ///< "at least 22x, then 60x"; "": none
   double value = 0.0;
+  std::optional<double> then = {};  ///< where to go from there
   bool at_most = false;
   bool of_ours = false;  ///< bounds our own figure and not the ratio
 };
@@ -47,6 +49,8 @@ struct Row {
 
   /// None without a finding or a goal.
   std::optional<bool> reached() const;
+  /// The same of `goal.then`; none without that either.
+  std::optional<bool> reached_then() const;
 };
 
 /// For a terminal, and to paste into Markdown.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/benchmark/subject_site.hpp"
+
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "semview/benchmark/office_plan.hpp"
+
+namespace semview::benchmark::detail {
+
+ScratchFolder::ScratchFolder()
+    : path_(std::filesystem::temp_directory_path() / fmt::format("semview_bench_{}", getpid())) {}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+Result<std::filesystem::path> bundle_of(const Subject& subject, const ScratchFolder& folder) {
+  if (!subject.office) {
+    std::error_code ignored;
+    const bool bare = !std::filesystem::exists(subject.map->directory / "map.yaml", ignored);
+    return bare ? subject.map->mesh()->file : subject.map->directory;
+  }
+  SEMVIEW_TRY_STATUS(write_office(*subject.office, folder / "map"));
+  return folder / "map";
+}
+
+service::SiteConfig config_of(const Circumstances& in) {
+  service::SiteConfig config;
+  config.engine = in.engine;
+  config.profile.camera = in.camera;
+  config.profile.eye_height_m = kEyeHeight_m;
+  config.threads = in.pool.threads();
+  return config;
+}
+
+}  // namespace semview::benchmark::detail
