@@ -86,7 +86,7 @@ TARGETS = {"client": "client/lib", "load": "client/load", "robot": "client/robot
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SYSTEM = re.compile(r"^([a-z0-9_]+|sys/[a-z]+\.h|"
-                    r"(arpa/inet|dlfcn|fcntl|ifaddrs|netinet/in|poll|unistd|xmmintrin)\.h)$")
+                    r"(arpa/inet|dlfcn|fcntl|ifaddrs|malloc|netinet/in|poll|unistd|xmmintrin)\.h)$")
 
 
 def folder_of(root, module):

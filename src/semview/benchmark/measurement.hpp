@@ -56,6 +56,7 @@ std::vector<RowKind> score_rows();
 std::vector<RowKind> floor_rows();
 std::vector<RowKind> storage_rows();
 std::vector<RowKind> site_rows();
+std::vector<RowKind> memory_rows();
 
 Goal at_least(double ratio, std::optional<double> then = {});
 

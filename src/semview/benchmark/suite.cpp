@@ -71,8 +71,11 @@ Result<std::vector<LazySubject>> subjects_of(const SuiteConfig& config) {
 
 std::vector<RowKind> all_kinds() {
   std::vector<RowKind> kinds = detail::cast_rows();
-  for (auto* more :
-       {&detail::score_rows, &detail::floor_rows, &detail::storage_rows, &detail::site_rows}) {
+  for (auto* more : {&detail::score_rows,
+                     &detail::floor_rows,
+                     &detail::storage_rows,
+                     &detail::site_rows,
+                     &detail::memory_rows}) {
     for (RowKind& kind : (*more)()) kinds.push_back(std::move(kind));
   }
   return kinds;
