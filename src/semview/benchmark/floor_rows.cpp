@@ -49,6 +49,12 @@ Result<Floor> open_floor(const Circumstances& in) {
   std::ranges::sort(cells);
   SEMVIEW_TRY(std::shared_ptr<service::Site> site, service::Site::open(map, config));
   SEMVIEW_TRY(ScoringTask task, scoring_task(in.subject, in.camera, 1));
+  // Random weights may give no similarity above 0, and so no belief: equal names score here.
+  const ClassTable& classes = in.subject.map->classes;
+  task.weights = similarity::WeightMatrix::identity(classes);
+  SEMVIEW_TRY(
+      task.prepared,
+      similarity::PreparedObservation::build(task.observation, task.weights, classes, in.camera));
   return Floor{std::move(site), std::move(cells), std::move(task)};
 }
 
@@ -99,6 +105,7 @@ Status dense_posterior(const Circumstances& in, Row& row) {
   SEMVIEW_TRY_STATUS(source.set_observation(floor.task.observation));
   auto posterior = DensePosterior::compute(source, {}, floor.cells, {});
   if (!posterior) return fail(posterior.error());
+  if (!posterior->informative()) return fail(ErrorCode::kInternal, "results differ: no belief");
   const double worst = worst_probability(floor, sums, *posterior);
   if (!(worst <= 1e-9)) {
     return fail(ErrorCode::kInternal,
