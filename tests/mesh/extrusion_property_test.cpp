@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -136,6 +139,101 @@ TEST(ExtrusionPropertyTest, NoTwoTrianglesOfOnePlaneOverlap) {
         }
       }
     }
+  }
+}
+
+// A plan whose slabs reach through the ground and the ceiling, which cut them.
+ColumnMap cut_map(Rng& rng) {
+  ColumnMap map = random_map(rng);
+  map.ground_height_m = -0.75;
+  if (map.ceiling) map.ceiling->height_m = 1.0;
+  return map;
+}
+
+TEST(ExtrusionPropertyTest, EachFaceHasFreeSpaceBeforeItAndItsOwnClassBehindIt) {
+  constexpr double kAside_m = 0.01;  // far less than the quarters of which all is made
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Rng rng(seed, "sides");
+    const ColumnMap map = seed % 2 == 0 ? random_map(rng) : cut_map(rng);
+    const TriangleMesh mesh = extrude(map);
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+      const Eigen::Vector3d a = mesh.vertices[mesh.triangles[k][0]].cast<double>();
+      const Eigen::Vector3d ab = mesh.vertices[mesh.triangles[k][1]].cast<double>() - a;
+      const Eigen::Vector3d ac = mesh.vertices[mesh.triangles[k][2]].cast<double>() - a;
+      const Eigen::Vector3d aside = kAside_m * ab.cross(ac).normalized();
+      for (int sample = 0; sample < 8; ++sample) {
+        double u = rng.uniform(0.0, 1.0);
+        double v = rng.uniform(0.0, 1.0);
+        if (u + v > 1.0) {
+          u = 1.0 - u;
+          v = 1.0 - v;
+        }
+        const Eigen::Vector3d point = a + u * ab + v * ac;
+        const Eigen::Vector3d before = point + aside;
+        const Eigen::Vector3d behind = point - aside;
+        ASSERT_EQ(solid_at(map, map.at(before.x(), before.y()), before.z()), std::nullopt)
+            << "seed " << seed << " triangle " << k;
+        ASSERT_EQ(solid_at(map, map.at(behind.x(), behind.y()), behind.z()), mesh.labels[k])
+            << "seed " << seed << " triangle " << k;
+        const bool within = point.z() > map.ground_height_m - 1e-6 &&
+                            (!map.ceiling || point.z() < map.ceiling->height_m + 1e-6);
+        ASSERT_TRUE(within) << "seed " << seed << " triangle " << k;
+      }
+    }
+  }
+}
+
+/// Class, plane's axis, whether it looks along that axis.
+using FaceKind = std::tuple<ClassId, int, bool>;
+
+/// The area between solid and free, found by asking each quarter cube for its six neighbours.
+std::map<FaceKind, double> area_of_cubes(const ColumnMap& map) {
+  constexpr double kEdge_m = 0.25;  // of pixels and of layers
+  std::map<FaceKind, double> areas;
+  const auto at = [&](int row, int column, int layer) -> std::optional<ClassId> {
+    const auto& image = map.profile_of_pixel;
+    const bool inside = row >= 0 && row < image.rows() && column >= 0 && column < image.columns();
+    return solid_at(map, inside ? &map.profile(row, column) : nullptr, (layer + 0.5) * kEdge_m);
+  };
+  const auto low = static_cast<int>(std::lround(map.ground_height_m / kEdge_m));
+  const auto high =
+      static_cast<int>(std::lround((map.ceiling ? map.ceiling->height_m : 2.0) / kEdge_m));
+  for (int row = -1; row <= map.rows(); ++row) {
+    for (int column = -1; column <= map.columns(); ++column) {
+      for (int layer = low; layer < high; ++layer) {  // free cubes are between ground and ceiling
+        if (at(row, column, layer)) continue;
+        const std::array<std::array<int, 3>, 3> along{{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}};
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto& step = along[static_cast<std::size_t>(axis)];
+          for (const int sign : {1, -1}) {
+            const auto solid =
+                at(row + sign * step[0], column + sign * step[1], layer + sign * step[2]);
+            if (solid) areas[{*solid, axis, sign < 0}] += kEdge_m * kEdge_m;
+          }
+        }
+      }
+    }
+  }
+  return areas;
+}
+
+TEST(ExtrusionPropertyTest, FacesHaveTheAreaBetweenSolidAndFreeCubes) {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Rng rng(seed, "area");
+    const ColumnMap map = seed % 2 == 0 ? random_map(rng) : cut_map(rng);
+    const TriangleMesh mesh = extrude(map);
+    std::map<FaceKind, double> areas;
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+      const Eigen::Vector3d a = mesh.vertices[mesh.triangles[k][0]].cast<double>();
+      const Eigen::Vector3d ab = mesh.vertices[mesh.triangles[k][1]].cast<double>() - a;
+      const Eigen::Vector3d ac = mesh.vertices[mesh.triangles[k][2]].cast<double>() - a;
+      const Eigen::Vector3d twice = ab.cross(ac);
+      int axis = 0;
+      twice.cwiseAbs().maxCoeff(&axis);
+      areas[{mesh.labels[k], axis, twice[axis] > 0.0}] += 0.5 * twice.norm();
+    }
+    // Sums of sixteenths are exact: equal to the last bit.
+    ASSERT_EQ(areas, area_of_cubes(map)) << "seed " << seed;
   }
 }
 
