@@ -20,60 +20,37 @@ namespace {
 
 using SharedSite = std::shared_ptr<service::Site>;
 
-/// One Score request, its poses in order of their cells and cut between cells.
+/// One Score request, its poses by the cells whose views they take.
 struct Scoring {
   SharedSite site;
   SharedObservation prepared;
   ScoreRequest request;
-  std::vector<std::size_t> order;  ///< of the poses
+  similarity::PoseGroups groups;
   ScoreBatch batch;
   std::mutex mutex;  ///< guards batch.origins
 };
 
-Status score_part(Scoring& scoring, std::size_t begin, std::size_t end, ThreadPool& pool) {
-  ScoreRequest part{{}, scoring.request.mode, scoring.request.whole_curve};
-  part.poses.reserve(end - begin);
-  for (std::size_t i = begin; i < end; ++i) {
-    part.poses.push_back(scoring.request.poses[scoring.order[i]]);
-  }
-  SEMVIEW_TRY(const ScoreBatch scored,
-              similarity::score_poses(*scoring.prepared, scoring.site->views(), part, pool));
-  constexpr std::size_t kHeadings = PoseGrid::kHeadings;
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t from = i - begin;
-    const std::size_t to = scoring.order[i];
-    scoring.batch.sums[to] = scored.sums[from];
-    if (!scored.best_heading.empty()) scoring.batch.best_heading[to] = scored.best_heading[from];
-    if (!scored.curve.empty()) {
-      std::copy_n(&scored.curve[from * kHeadings], kHeadings, &scoring.batch.curve[to * kHeadings]);
-    }
-  }
+Status score_part(Scoring& scoring, similarity::CellRange cells, ThreadPool& pool) {
+  SEMVIEW_TRY(const ViewOrigins origins,
+              similarity::score_cells(*scoring.prepared,
+                                      scoring.site->views(),
+                                      scoring.request,
+                                      scoring.groups,
+                                      cells,
+                                      pool,
+                                      scoring.batch));
   const std::lock_guard lock(scoring.mutex);
-  scoring.batch.origins += scored.origins;
+  scoring.batch.origins += origins;
   return {};
 }
 
-/// A pose and the cell whose view it takes; sorted as they are, without a look elsewhere.
-using PoseOfCell = std::pair<CellIndex, std::size_t>;
-
-/// Cuts the poses, in order, into chunks of whole cells.
-std::vector<Chunk> cut_poses(const std::shared_ptr<Scoring>& scoring,
-                             const std::vector<PoseOfCell>& poses,
-                             ThreadPool& pool) {
+std::vector<Chunk> cut_cells(const std::shared_ptr<Scoring>& scoring, ThreadPool& pool) {
   std::vector<Chunk> chunks;
-  const std::size_t count = poses.size();
-  std::size_t begin = 0;
-  std::size_t distinct = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    distinct += i == begin || poses[i].first != poses[i - 1].first ? 1 : 0;
-    const bool last_of_cell = i + 1 == count || poses[i + 1].first != poses[i].first;
-    if (last_of_cell && (distinct == kCellsPerChunk || i + 1 == count)) {
-      chunks.push_back({distinct, [scoring, begin, end = i + 1, &pool] {
-                          return score_part(*scoring, begin, end, pool);
-                        }});
-      begin = i + 1;
-      distinct = 0;
-    }
+  const std::size_t count = scoring->groups.cells.size();
+  for (std::size_t begin = 0; begin < count; begin += kCellsPerChunk) {
+    const similarity::CellRange cells{begin, std::min(begin + kCellsPerChunk, count)};
+    chunks.push_back({cells.end - cells.begin,
+                      [scoring, cells, &pool] { return score_part(*scoring, cells, pool); }});
   }
   return chunks;
 }
@@ -143,28 +120,18 @@ Result<Plan> plan_score(Services& services, const Request& request) {
   const std::size_t limit =
       wire.whole_curve() ? services.limits.max_curve_poses : services.limits.max_poses;
   SEMVIEW_TRY(scoring->request, protocol::from_wire(wire, limit));
-  const std::vector<Pose2>& poses = scoring->request.poses;
+  SEMVIEW_TRY(scoring->batch, similarity::unscored_batch(*scoring->prepared, scoring->request));
   // By the cell whose view is taken: each view is then asked for by one chunk only, and counted
   // once, as in a call in-process.
-  std::vector<PoseOfCell> by_cell(poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto cell = PoseGrid::cell(poses[i].x_m, poses[i].y_m);
-    if (!cell) return protocol::wrong_field("poses", fmt::format("entry {} has no cell", i));
-    by_cell[i] = {scoring->site->cells().view_cell(*cell).value_or(*cell), i};
-  }
-  std::ranges::sort(by_cell);
-  scoring->order.reserve(poses.size());
-  for (const PoseOfCell& pose : by_cell) scoring->order.push_back(pose.second);
-
-  ScoreBatch& batch = scoring->batch;
-  batch.weight_scale = scoring->prepared->weight_scale();
-  batch.observed_pixels = scoring->prepared->observed_pixels();
-  batch.sums.resize(poses.size());
-  if (scoring->request.mode == HeadingMode::kCompass) batch.best_heading.resize(poses.size());
-  if (scoring->request.whole_curve) batch.curve.resize(poses.size() * PoseGrid::kHeadings);
+  SEMVIEW_TRY(scoring->groups,
+              similarity::group_by_cell(scoring->request.poses,
+                                        scoring->request.mode,
+                                        [&site = *scoring->site](const CellIndex& cell) {
+                                          return site.cells().view_cell(cell).value_or(cell);
+                                        }));
 
   Plan plan;
-  plan.chunks = cut_poses(scoring, by_cell, services.inline_pool);
+  plan.chunks = cut_cells(scoring, services.inline_pool);
   SEMVIEW_TRY_STATUS(check_queue(services, plan.chunks.size() * kCellsPerChunk, "poses"));
   plan.finish = [scoring]() -> Result<std::string> {
     return protocol::to_wire(scoring->batch).SerializeAsString();

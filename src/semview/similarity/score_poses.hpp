@@ -2,8 +2,11 @@
 /// Scores a batch of poses against one prepared observation.
 #pragma once
 
+#include <cstddef>
+
 #include "semview/core/result.hpp"
 #include "semview/core/thread_pool.hpp"
+#include "semview/similarity/pose_groups.hpp"
 #include "semview/similarity/prepared_observation.hpp"
 #include "semview/view/score_source.hpp"
 #include "semview/view/view_source.hpp"
@@ -21,5 +24,32 @@ Result<ScoreBatch> score_poses(const PreparedObservation& observation,
                                ViewSource& views,
                                const ScoreRequest& request,
                                ThreadPool& pool);
+
+// The same in parts, for whoever cuts the work by himself.
+
+/// A batch with room for every score of the request.
+/// @errors kInvalidArgument: `whole_curve` without the compass.
+Result<ScoreBatch> unscored_batch(const PreparedObservation& observation,
+                                  const ScoreRequest& request);
+
+/// Cells [begin, end) of a PoseGroups.
+struct CellRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Scores the poses of some cells into their places of `batch`, all but its origins.
+///
+/// @param groups  The poses of `request`.
+/// @return where the views of these cells came from
+/// @threads For ranges that have no cell in common at once.
+/// @errors those of `score_poses` that views may have.
+Result<ViewOrigins> score_cells(const PreparedObservation& observation,
+                                ViewSource& views,
+                                const ScoreRequest& request,
+                                const PoseGroups& groups,
+                                CellRange range,
+                                ThreadPool& pool,
+                                ScoreBatch& batch);
 
 }  // namespace semview::similarity
