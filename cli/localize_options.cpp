@@ -108,14 +108,7 @@ void add_filter_options(CLI::App& verb, LocalizeOptions& options) {
                   options.compass_gate_deg,
                   "Differences above this many degrees correct nothing")
       ->capture_default_str();
-  verb.add_option("--weighting",
-                  options.weighting,
-                  "Weight from similarity: `power` (s^p) or `exponential` (e^(kappa s))")
-      ->check(CLI::IsMember({"power", "exponential"}))
-      ->capture_default_str();
-  verb.add_option("--power", options.power, "p of --weighting power")->capture_default_str();
-  verb.add_option("--kappa", options.kappa, "kappa of --weighting exponential")
-      ->capture_default_str();
+  add_weighting_options(verb, options.weighting);
   verb.add_option("--resample-threshold",
                   options.resample_threshold,
                   "Resample when the effective sample size falls below this share; 1: every frame")
@@ -201,11 +194,7 @@ Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) 
   config.filter.resample_threshold = options.resample_threshold;
   config.filter.compass.gain = options.compass_gain;
   config.filter.compass.gate_rad = rad_from_deg(options.compass_gate_deg);
-  config.weighting.transform = options.weighting == "power"
-                                   ? observation::WeightTransform::kPower
-                                   : observation::WeightTransform::kExponential;
-  config.weighting.power = options.power;
-  config.weighting.kappa = options.kappa;
+  config.weighting = weighting_of(options.weighting);
   config.estimate = options.estimate == "best"   ? localization::EstimateKind::kHighestWeight
                     : options.estimate == "mean" ? localization::EstimateKind::kWeightedMean
                                                  : localization::EstimateKind::kStrongestMode;

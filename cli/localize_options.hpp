@@ -12,6 +12,7 @@
 #include "semview/localization/particle_set.hpp"
 #include "semview/localization/position_noise_model.hpp"
 #include "site_options.hpp"
+#include "weighting_options.hpp"
 
 namespace semview::cli {
 
@@ -32,9 +33,7 @@ struct LocalizeOptions {
   localization::OdometryMotionConfig alphas = {};
   double sigma_m = localization::PositionNoiseConfig{}.sigma_m;
   double heading_sigma_deg = 0.0;
-  std::string weighting = "power";
-  double power = observation::SimilarityWeightingConfig{}.power;
-  double kappa = observation::SimilarityWeightingConfig{}.kappa;
+  WeightingOptions weighting = {};
   std::string estimate = "mode";
   double resample_threshold = localization::ParticleFilterConfig{}.resample_threshold;
   double compass_gain = localization::CompassConfig{}.gain;

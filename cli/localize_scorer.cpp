@@ -15,6 +15,7 @@
 #include "semview/service/site.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "semview/similarity/weight_matrix.hpp"
+#include "server_option.hpp"
 #include "weights_option.hpp"
 
 namespace semview::cli {
@@ -74,15 +75,9 @@ Result<Scorer> open_in_process(const LocalizeOptions& options, const ClassTable&
 }
 
 Result<Scorer> open_remote(const LocalizeOptions& options, const ClassTable& observed) {
-  client::ConnectionConfig config;
-  config.endpoint = options.server;
-  config.timeout = std::chrono::milliseconds(static_cast<int>(1000.0 * options.timeout_s));
-  config.client_name = "semview localize";
-  if (const Status valid = validate(config); !valid) {
-    Error error = valid.error();
-    error.field = "--server";
-    return fail(std::move(error));
-  }
+  const std::chrono::milliseconds timeout(static_cast<int>(1000.0 * options.timeout_s));
+  SEMVIEW_TRY(const client::ConnectionConfig config,
+              connection_to(options.server, "localize", timeout));
   SEMVIEW_TRY(client::Connection connection, client::Connection::open(config));
   SEMVIEW_TRY(protocol::MapDescription map, client::get_map(connection, options.map));
   SEMVIEW_TRY(ChosenWeights weights,

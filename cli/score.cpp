@@ -17,6 +17,7 @@
 #include "semview/geometry/angle.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
+#include "server_option.hpp"
 #include "site_options.hpp"
 #include "verb.hpp"
 #include "weights_option.hpp"
@@ -103,14 +104,8 @@ struct Scorer {
 };
 
 Result<Scorer> open_remote(const Options& options, const ClassTable& observed) {
-  client::ConnectionConfig config;
-  config.endpoint = options.server;
-  config.client_name = "semview score";
-  if (const Status valid = validate(config); !valid) {
-    Error error = valid.error();
-    error.field = "--server";
-    return fail(std::move(error));
-  }
+  SEMVIEW_TRY(const client::ConnectionConfig config,
+              connection_to(options.server, "score", client::ConnectionConfig{}.timeout));
   SEMVIEW_TRY(client::Connection connection, client::Connection::open(config));
   SEMVIEW_TRY(const protocol::MapDescription map, client::get_map(connection, options.site.map));
   SEMVIEW_TRY(similarity::WeightMatrix weights,
@@ -219,8 +214,7 @@ void add_score_verb(CLI::App& app, int& exit_code) {
       "headings are tried at each position and the best is reported.");
   const auto options = std::make_shared<Options>();
   add_site_options(*verb, options->site);
-  verb->add_option("--server", options->server, "Let this server score; MAP is the map's id there")
-      ->type_name("tcp://HOST:PORT");
+  add_server_option(*verb, options->server, "score");
   add_observation_option(*verb, options->observation);
   add_weights_option(*verb, options->weights)->required();
   verb->add_option("--pose", options->pose, "One pose")->type_name("X,Y,YAW_DEG");

@@ -8,6 +8,7 @@
 
 #include "methods.hpp"
 #include "semview/map/cell_grid.hpp"
+#include "semview/observation/cell_posterior.hpp"
 #include "semview/protocol/envelope.hpp"
 #include "semview/protocol/view_wire.hpp"
 #include "semview/similarity/heat_map.hpp"
@@ -26,7 +27,9 @@ struct HeatMapping {
   CellIndex origin;
   int columns = 0;
   int rows = 0;
+  similarity::CellWeight cell_weight;  ///< empty: no probabilities are asked for
   std::vector<float> similarity;
+  std::vector<double> log_weight;  ///< empty without `cell_weight`
   std::string best_headings;
   std::mutex mutex;  ///< guards origins
   ViewOrigins origins;
@@ -34,8 +37,10 @@ struct HeatMapping {
 
 Status heat_part(HeatMapping& heat, std::size_t begin, std::size_t end, ThreadPool& pool) {
   const std::span<const CellIndex> cells = std::span(heat.cells).subspan(begin, end - begin);
-  SEMVIEW_TRY(const similarity::HeatMap part,
-              similarity::heat_map(*heat.prepared, heat.site->views(), cells, heat.headings, pool));
+  SEMVIEW_TRY(
+      const similarity::HeatMap part,
+      similarity::heat_map(
+          *heat.prepared, heat.site->views(), cells, heat.headings, pool, {}, heat.cell_weight));
   for (const CellIndex& cell : cells) {
     const auto to = static_cast<std::size_t>(cell.iy - heat.origin.iy) *
                         static_cast<std::size_t>(heat.columns) +
@@ -44,10 +49,26 @@ Status heat_part(HeatMapping& heat, std::size_t begin, std::size_t end, ThreadPo
     const int column = cell.ix - part.origin.ix;
     heat.similarity[to] = part.similarity.at(row, column);
     heat.best_headings[to] = static_cast<char>(part.best_heading.at(row, column));
+    if (heat.cell_weight) heat.log_weight[to] = part.log_weight.at(row, column);
   }
   const std::lock_guard lock(heat.mutex);
   heat.origins += part.origins;
   return {};
+}
+
+Result<similarity::CellWeight> cell_weight(const v1::Weighting& wire) {
+  observation::SimilarityWeightingConfig config;
+  if (wire.has_power()) config.power = wire.power();
+  if (wire.has_kappa()) {
+    config.transform = observation::WeightTransform::kExponential;
+    config.kappa = wire.kappa();
+  }
+  if (const Status valid = validate(config); !valid) {
+    return protocol::wrong_field("posterior." + valid.error().field, valid.error().message);
+  }
+  return [config](std::span<const double> similarities) {
+    return observation::cell_log_weight(config, similarities);
+  };
 }
 
 /// The free cells of a map whose centre is in the region, row by row.
@@ -92,6 +113,9 @@ Result<Plan> plan_heatmap(Services& services, const Request& request) {
                                  fmt::format("{}; expected a divisor of 120", headings));
   }
   heat->headings = static_cast<int>(headings);
+  if (wire.has_posterior()) {
+    SEMVIEW_TRY(heat->cell_weight, cell_weight(wire.posterior()));
+  }
   SEMVIEW_TRY(heat->cells, heat_cells(services, *heat->site, wire));
   SEMVIEW_TRY_STATUS(check_queue(services, heat->cells.size(), "region"));
 
@@ -104,6 +128,9 @@ Result<Plan> plan_heatmap(Services& services, const Request& request) {
       static_cast<std::size_t>(heat->columns) * static_cast<std::size_t>(heat->rows);
   heat->similarity.assign(pixels, std::numeric_limits<float>::quiet_NaN());
   heat->best_headings.assign(pixels, static_cast<char>(0xff));
+  if (heat->cell_weight) {
+    heat->log_weight.assign(pixels, std::numeric_limits<double>::quiet_NaN());
+  }
 
   Plan plan;
   for (std::size_t begin = 0; begin < heat->cells.size(); begin += kCellsPerChunk) {
@@ -120,6 +147,11 @@ Result<Plan> plan_heatmap(Services& services, const Request& request) {
     reply.set_origin_iy(heat->origin.iy);
     reply.mutable_similarity()->Add(heat->similarity.begin(), heat->similarity.end());
     reply.set_best_headings(std::move(heat->best_headings));
+    if (heat->cell_weight) {
+      SEMVIEW_TRY(const std::vector<float> probability,
+                  observation::cell_probabilities(heat->log_weight));
+      reply.mutable_probability()->Add(probability.begin(), probability.end());
+    }
     *reply.mutable_origins() = protocol::to_wire(heat->origins);
     return reply.SerializeAsString();
   };

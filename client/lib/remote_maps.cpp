@@ -27,16 +27,17 @@ Result<protocol::MapDescription> get_map(Connection& connection,
   return protocol::from_wire(reply);
 }
 
+void to_wire(const Region& region, v1::Region* wire) {
+  wire->set_x_min_m(region.x_min_m);
+  wire->set_y_min_m(region.y_min_m);
+  wire->set_x_max_m(region.x_max_m);
+  wire->set_y_max_m(region.y_max_m);
+}
+
 Result<std::string> start_precompute(Connection& connection, const PrecomputeRequest& request) {
   v1::StartPrecomputeRequest wire;
   wire.set_map_id(request.map_id);
-  if (request.region) {
-    v1::Region* const region = wire.mutable_region();
-    region->set_x_min_m(request.region->x_min_m);
-    region->set_y_min_m(request.region->y_min_m);
-    region->set_x_max_m(request.region->x_max_m);
-    region->set_y_max_m(request.region->y_max_m);
-  }
+  if (request.region) to_wire(*request.region, wire.mutable_region());
   if (request.reachable_from) {
     wire.mutable_reachable_from()->set_x_m(request.reachable_from->x_m);
     wire.mutable_reachable_from()->set_y_m(request.reachable_from->y_m);

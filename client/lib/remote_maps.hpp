@@ -10,6 +10,10 @@
 #include "semview/geometry/pose2.hpp"
 #include "semview/protocol/descriptions.hpp"
 
+namespace semview::v1 {
+class Region;
+}
+
 namespace semview::client {
 
 /// @errors those of `Connection::call`.
@@ -28,6 +32,8 @@ struct Region {
   double x_max_m = 0.0;
   double y_max_m = 0.0;
 };
+
+void to_wire(const Region& region, v1::Region* wire);
 
 struct PrecomputeRequest {
   std::string map_id;

@@ -78,25 +78,38 @@ Status RemoteScoreSource::send_observation() {
 }
 
 Result<ScoreBatch> RemoteScoreSource::score(const ScoreRequest& request) {
+  v1::ScoreRequest wire;
+  protocol::to_wire(request, &wire);
+  SEMVIEW_TRY(const std::string body, ask("Score", &wire));
+  SEMVIEW_TRY(const auto scores, protocol::parse<v1::ScoreReply>(body, "reply"));
+  return protocol::from_wire(scores, request);
+}
+
+Result<HeatMapAnswer> RemoteScoreSource::heat_map(const HeatMapQuestion& question) {
+  v1::HeatmapRequest wire;
+  to_wire(question, &wire);
+  SEMVIEW_TRY(const std::string body, ask("Heatmap", &wire));
+  SEMVIEW_TRY(const auto reply, protocol::parse<v1::HeatmapReply>(body, "reply"));
+  return from_wire(reply, question);
+}
+
+/// Asks about the current observation, which the server may have to be sent first, or again.
+template <typename Request>
+Result<std::string> RemoteScoreSource::ask(std::string_view method, Request* wire) {
   if (!observation_body_) {
     return fail(ErrorCode::kFailedPrecondition, "no observation was set");
   }
-  v1::ScoreRequest wire;
-  protocol::to_wire(request, &wire);
-  wire.set_map_id(map_.summary.id);
-  wire.set_fingerprint(protocol::to_wire(map_.summary.fingerprint));
+  wire->set_map_id(map_.summary.id);
+  wire->set_fingerprint(protocol::to_wire(map_.summary.fingerprint));
   bool sent_now = false;
   for (;;) {
     if (observation_id_.empty()) {
       SEMVIEW_TRY_STATUS(send_observation());
       sent_now = true;
     }
-    wire.set_observation_id(observation_id_);
-    const Result<std::string> reply = call("Score", wire.SerializeAsString());
-    if (reply) {
-      SEMVIEW_TRY(const auto scores, protocol::parse<v1::ScoreReply>(*reply, "reply"));
-      return protocol::from_wire(scores, request);
-    }
+    wire->set_observation_id(observation_id_);
+    Result<std::string> reply = call(method, wire->SerializeAsString());
+    if (reply) return reply;
     const bool forgotten =
         reply.error().code == ErrorCode::kNotFound && reply.error().field == "observation_id";
     if (!forgotten || sent_now) return fail(reply.error());

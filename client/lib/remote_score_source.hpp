@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "client/lib/connection.hpp"
+#include "client/lib/remote_heat_map.hpp"
 #include "semview/protocol/descriptions.hpp"
 #include "semview/similarity/weight_matrix.hpp"
 #include "semview/view/score_source.hpp"
@@ -36,6 +38,13 @@ class RemoteScoreSource final : public ScoreSource {
   Status set_observation(const Observation& observation) override;
   Result<ScoreBatch> score(const ScoreRequest& request) override;
 
+  /// How well the observation fits each free cell of the map: the values of
+  /// `similarity::heat_map` in the server's process. A cold floor takes as long as its views take
+  /// to cast: give the connection time.
+  /// @errors those of `score`; kInvalidArgument: a region without free cells, headings or weights
+  /// out of range; kResourceExhausted: too many cells.
+  Result<HeatMapAnswer> heat_map(const HeatMapQuestion& question);
+
  private:
   RemoteScoreSource(Connection connection,
                     protocol::MapDescription map,
@@ -43,6 +52,8 @@ class RemoteScoreSource final : public ScoreSource {
   Status reach();
   Result<std::string> call(std::string_view method, std::string_view body);
   Status send_observation();
+  template <typename Request>
+  Result<std::string> ask(std::string_view method, Request* wire);
 
   Connection connection_;
   const protocol::MapDescription map_;

@@ -64,10 +64,13 @@ class HeatMap:
     x_m: float
     y_m: float
     step_m: float = 0.1
+    probability: Optional[np.ndarray] = None  # as similarity; 1 over all cells; if asked for
 
     def best(self):
-        """(x, y, yaw) of the highest similarity, at the centre of its cell."""
-        row, column = np.unravel_index(np.nanargmax(self.similarity), self.similarity.shape)
+        """(x, y, yaw) at the centre of the cell of the highest probability, where probabilities were
+        asked for, else of the highest similarity."""
+        values = self.similarity if self.probability is None else self.probability
+        row, column = np.unravel_index(np.nanargmax(values), values.shape)
         return (
             self.x_m + (column + 0.5) * self.step_m,
             self.y_m + (row + 0.5) * self.step_m,
@@ -390,9 +393,23 @@ class Observation:
             origins={name: getattr(reply.origins, name) for name in ("memory", "disk", "cast")},
         )
 
-    def heat_map(self, region=None, headings=HEADINGS, timeout_s=600.0) -> HeatMap:
-        """The best similarity of each free cell of the map, or of a region."""
+    def heat_map(
+        self, region=None, headings=HEADINGS, timeout_s=600.0, posterior=False, power=None, kappa=None
+    ) -> HeatMap:
+        """The best similarity of each free cell of the map, or of a region.
+
+        posterior     also the probability of each of these cells, whatever the heading, with the
+                      weights that a filter gives
+        power, kappa  one of them: weight = max(similarity, 0) ** power, or exp(kappa * similarity);
+                      none: the filter's default
+        """
         request = scores_pb2.HeatmapRequest(headings=headings)
+        if (power is not None or kappa is not None) and not posterior:
+            raise ValueError("power and kappa are weights of a posterior; expected posterior=True")
+        if power is not None and kappa is not None:
+            raise ValueError("both power and kappa; expected one of them")
+        if posterior:
+            request.posterior.CopyFrom(scores_pb2.Weighting(power=power, kappa=kappa))
         if region is not None:
             x_min, y_min, x_max, y_max = region
             request.region.CopyFrom(
@@ -406,6 +423,9 @@ class Observation:
             best_yaw_rad=np.where(best == 255, np.nan, np.deg2rad(best * 3.0)),
             x_m=reply.origin_ix * 0.1,
             y_m=reply.origin_iy * 0.1,
+            probability=np.array(reply.probability, dtype=np.float32).reshape(shape)
+            if posterior
+            else None,
         )
 
 

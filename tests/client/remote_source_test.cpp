@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <span>
+
 #include "client/client_fixture.hpp"
 #include "client/lib/remote_score_source.hpp"
 #include "client/lib/remote_view_source.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/observation/cell_posterior.hpp"
+#include "semview/similarity/heat_map.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "support/eventually.hpp"
 
@@ -28,6 +33,10 @@ class RemoteSourceTest : public ClientFixture {
     auto batch = source.score(request);
     EXPECT_TRUE(batch);
     return *std::move(batch);
+  }
+
+  static bool same_bits(std::span<const float> a, std::span<const float> b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
   }
 
   static void expect_equal(const ScoreBatch& a, const ScoreBatch& b) {
@@ -72,6 +81,45 @@ TEST_F(RemoteSourceTest, ScoresAreThoseOfTheSourceInProcess) {
   const auto remote = (*source)->score(request);
   ASSERT_TRUE(remote);
   expect_equal(*remote, in_process(request));
+}
+
+TEST_F(RemoteSourceTest, HeatMapsAndPosteriorsAreThoseInProcess) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE(source) << source.error().message;
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  const std::vector<CellIndex> cells = site_->cells().free_cells();
+  const auto prepared = similarity::PreparedObservation::build(
+      observation(), weights(), site_->map().classes, site_->profile().camera);
+  ASSERT_TRUE(prepared);
+  for (const auto& weighting :
+       {observation::SimilarityWeightingConfig{},
+        observation::SimilarityWeightingConfig{.power = 3.5},
+        observation::SimilarityWeightingConfig{
+            .transform = observation::WeightTransform::kExponential, .kappa = 7.0}}) {
+    const auto remote = (*source)->heat_map({.headings = 24, .posterior = weighting});
+    ASSERT_TRUE(remote) << remote.error().message;
+    const auto local = similarity::heat_map(
+        *prepared, site_->views(), cells, 24, site_->pool(), {}, [&](const auto& similarities) {
+          return observation::cell_log_weight(weighting, similarities);
+        });
+    ASSERT_TRUE(local);
+    const auto probabilities = observation::cell_probabilities(local->log_weight.pixels());
+    ASSERT_TRUE(probabilities);
+    EXPECT_EQ(remote->heat.origin, local->origin);
+    EXPECT_EQ(remote->heat.best_heading, local->best_heading);
+    EXPECT_TRUE(same_bits(remote->heat.similarity.pixels(), local->similarity.pixels()));
+    EXPECT_TRUE(same_bits(remote->probability.pixels(), *probabilities));
+  }
+}
+
+TEST_F(RemoteSourceTest, APosteriorsWeightsAreCheckedByTheServer) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  const auto refused =
+      (*source)->heat_map({.posterior = observation::SimilarityWeightingConfig{.power = -1.0}});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(refused.error().field, "posterior.power");
 }
 
 TEST_F(RemoteSourceTest, ScoringBeforeAnObservationIsAFailedPrecondition) {

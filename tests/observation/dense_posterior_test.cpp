@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "semview/observation/cell_posterior.hpp"
+
 namespace semview::observation {
 namespace {
 
@@ -101,6 +103,48 @@ TEST(DensePosteriorTest, GivesEveryHypothesisTheWeightOfTheFilterOverTheSumOfAll
     EXPECT_EQ(posterior->scores().best_similarity, 0.8);
     EXPECT_EQ(posterior->scores().origins.memory, 600U);
   }
+}
+
+TEST(DensePosteriorTest, CellProbabilitiesAreItsSumsOverAllHeadings) {
+  HillySource source = two_hills();
+  for (const WeightTransform transform : {WeightTransform::kPower, WeightTransform::kExponential}) {
+    // Of the low power every cell has its part; the high one leaves the range of doubles.
+    for (const double sharpness : {2.0, 40.0, 4000.0}) {
+      const SimilarityWeightingConfig config{transform, sharpness, sharpness};
+      const auto posterior = DensePosterior::compute(source, config, floor_cells(), {});
+      ASSERT_TRUE(posterior);
+      std::vector<double> log_weights;
+      for (const CellIndex& cell : posterior->cells()) {
+        std::vector<double> similarities;
+        for (int k = 0; k < kHeadings; ++k) {
+          const std::int32_t sum = source.sum({cell, k});
+          if (sum != kNoView) similarities.push_back(sum / kScale);
+        }
+        log_weights.push_back(similarities.empty() ? std::nan("")
+                                                   : cell_log_weight(config, similarities));
+      }
+      const auto probabilities = cell_probabilities(log_weights);
+      ASSERT_TRUE(probabilities);
+      double all = 0.0;
+      for (std::size_t i = 0; i < posterior->cells().size(); ++i) {
+        if (std::isnan(log_weights[i])) {
+          EXPECT_TRUE(std::isnan((*probabilities)[i]));
+          continue;
+        }
+        double expected = 0.0;
+        for (int k = 0; k < kHeadings; ++k) expected += posterior->probability(i, k);
+        ASSERT_NEAR((*probabilities)[i], expected, 1e-6 * expected + 1e-30);
+        all += static_cast<double>((*probabilities)[i]);
+      }
+      EXPECT_NEAR(all, 1.0, 1e-6);
+    }
+  }
+}
+
+TEST(DensePosteriorTest, WhereNothingIsPossibleThereAreNoCellProbabilities) {
+  const std::vector<double> similarities(kHeadings, -0.2);
+  const std::vector<double> log_weights{std::nan(""), cell_log_weight({}, similarities)};
+  EXPECT_EQ(cell_probabilities(log_weights).error().code, ErrorCode::kFailedPrecondition);
 }
 
 TEST(DensePosteriorTest, TwoPlacesThatLookAlikeAreTwoModesOfHalfTheBelief) {

@@ -202,6 +202,28 @@ class ClientTest(unittest.TestCase):
         self.assertAlmostEqual(y, self.pose[1])
         self.assertAlmostEqual(yaw, 0.0)
 
+    def test_a_posterior_is_the_weights_of_all_headings_over_their_sum(self):
+        (view,) = self.map.views([self.pose])
+        observation = self.map.set_observation(view.labels)
+        self.assertIsNone(observation.heat_map(region=self.region()).probability)
+        for name, weigh in (
+            ("power", lambda s: np.maximum(s, 0.0) ** 3.0),
+            ("kappa", lambda s: np.exp(3.0 * s)),
+        ):
+            heat = observation.heat_map(region=self.region(), posterior=True, **{name: 3.0})
+            rows, columns = np.nonzero(~np.isnan(heat.similarity))
+            poses = [
+                (heat.x_m + (column + 0.5) * 0.1, heat.y_m + (row + 0.5) * 0.1, 0.0)
+                for row, column in zip(rows, columns)
+            ]
+            weights = weigh(observation.score(poses, compass=True, curve=True).curve)
+            np.testing.assert_allclose(
+                heat.probability[rows, columns], weights.sum(axis=1) / weights.sum(), rtol=1e-5
+            )
+            self.assertEqual(np.isnan(heat.probability).sum(), np.isnan(heat.similarity).sum())
+        with self.assertRaisesRegex(ValueError, "expected one of them"):
+            observation.heat_map(posterior=True, power=1.0, kappa=1.0)
+
     def test_precompute_tells_its_progress(self):
         job = self.map.precompute(region=self.region(0.5))
         statuses = list(job.progress(interval_s=0.02))

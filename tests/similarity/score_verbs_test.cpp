@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview weights|score|heatmap` as a user runs them, on a shipped plan.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +21,7 @@
 #include "semview/service/site.hpp"
 #include "support/engine_wish.hpp"
 #include "support/run_program.hpp"
+#include "support/running_server.hpp"
 
 namespace semview {
 namespace {
@@ -97,6 +103,61 @@ TEST_F(ScoreVerbsTest, TheHeatMapIsHighestWhereTheRobotStands) {
   const json beside = json::parse(std::ifstream(file("heat.json")));
   EXPECT_EQ(beside["fingerprint"], result["fingerprint"]);
   EXPECT_EQ(beside["step_m"], 0.1);
+}
+
+/// The values of a `.npy` of float32.
+std::vector<float> values_of(const std::string& npy) {
+  std::ifstream stream(npy, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t header = bytes.find('\n') + 1;
+  std::vector<float> values((bytes.size() - header) / sizeof(float));
+  std::memcpy(values.data(), bytes.data() + header, values.size() * sizeof(float));
+  return values;
+}
+
+TEST_F(ScoreVerbsTest, ThePosteriorAddsUpToOneAndIsHighestWhereTheRobotStands) {
+  const Outcome outcome =
+      run("heatmap " + inputs() + " --columns 120 --rows 30 --posterior -o " +
+          file("posterior.png") + " --npy " + file("posterior.npy") + " --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json about = json::parse(std::ifstream(file("posterior.json")));
+  EXPECT_EQ(about["quantity"], "probability");
+  EXPECT_EQ(about["weighting"], (json{{"transform", "power"}, {"power", 20.0}}));
+  EXPECT_NEAR(about["best"]["x_m"].get<double>(), truth_.x_m, 1e-9);
+  EXPECT_NEAR(about["best"]["y_m"].get<double>(), truth_.y_m, 1e-9);
+  double sum = 0.0;
+  float highest = 0.0F;
+  for (const float value : values_of(file("posterior.npy"))) {
+    if (std::isnan(value)) continue;
+    sum += static_cast<double>(value);
+    highest = std::max(highest, value);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-5);
+  EXPECT_EQ(about["best"]["probability"].get<float>(), highest);
+}
+
+TEST_F(ScoreVerbsTest, AServersHeatMapsHaveTheBytesOfThoseMadeHere) {
+  std::ofstream(file("server.yaml")) << "profile: {columns: 120, rows: 30}\n";
+  const semview::testing::RunningServer server(
+      {"--map", kMap, "--config", file("server.yaml"), "--bind", "tcp://127.0.0.1:*"},
+      folder_ / "server");
+  const std::string remote = "heatmap duplex_level1 --server " + server.endpoint() + " --obs " +
+                             file("obs") + " --weights " + kMap + "/weights.csv";
+  for (const std::string how : {"", " --posterior --weighting exponential --kappa 30"}) {
+    const Outcome here = run("heatmap " + inputs() + " --columns 120 --rows 30" + how + " -o " +
+                             file("here.png") + " --npy " + file("here.npy"));
+    const Outcome there =
+        run(remote + how + " -o " + file("there.png") + " --npy " + file("there.npy"));
+    ASSERT_EQ(here.exit_code, 0) << here.output;
+    ASSERT_EQ(there.exit_code, 0) << there.output;
+    EXPECT_EQ(semview::testing::file_bytes(file("here.npy")),
+              semview::testing::file_bytes(file("there.npy")));
+    json own = json::parse(std::ifstream(file("here.json")));
+    json servers = json::parse(std::ifstream(file("there.json")));
+    own.erase("cells");  // from memory, the second time
+    servers.erase("cells");
+    EXPECT_EQ(own, servers);
+  }
 }
 
 TEST_F(ScoreVerbsTest, WeightsInitWritesWhatWeightsCheckAccepts) {

@@ -44,13 +44,13 @@ Result<Bounds> bounds_of(std::span<const CellIndex> cells) {
 
 }  // namespace
 
-GridKey HeatMap::best() const {
+GridKey HeatMap::highest(const Image<float>& values) const {
   GridKey key{origin, 0};
   float highest = -std::numeric_limits<float>::infinity();
-  for (int r = 0; r < similarity.rows(); ++r) {
-    for (int c = 0; c < similarity.columns(); ++c) {
-      if (!(similarity.at(r, c) > highest)) continue;
-      highest = similarity.at(r, c);
+  for (int r = 0; r < values.rows(); ++r) {
+    for (int c = 0; c < values.columns(); ++c) {
+      if (!(values.at(r, c) > highest)) continue;
+      highest = values.at(r, c);
       key = {{origin.ix + c, origin.iy + r}, best_heading.at(r, c)};
     }
   }
@@ -62,7 +62,8 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
                          std::span<const CellIndex> requested,
                          int headings,
                          ThreadPool& pool,
-                         const std::function<bool(std::size_t, std::size_t)>& progress) {
+                         const std::function<bool(std::size_t, std::size_t)>& progress,
+                         const CellWeight& cell_weight) {
   if (headings < 1 || PoseGrid::kHeadings % headings != 0) {
     return fail(
         Error{ErrorCode::kInvalidArgument,
@@ -82,6 +83,9 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
   map.origin = bounds.low;
   map.similarity = Image<float>(rows, columns, std::numeric_limits<float>::quiet_NaN());
   map.best_heading = Image<std::uint8_t>(rows, columns, kNoHeading);
+  if (cell_weight) {
+    map.log_weight = Image<double>(rows, columns, std::numeric_limits<double>::quiet_NaN());
+  }
   const auto visit = [&](std::size_t i, const ColumnView* view) {
     if (view == nullptr) return;
     std::array<std::int32_t, PoseGrid::kHeadings> sums{};
@@ -94,6 +98,12 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
     const int column = cells[i].ix - map.origin.ix;
     map.similarity.at(row, column) = static_cast<float>(observation.similarity(sums[best]));
     map.best_heading.at(row, column) = static_cast<std::uint8_t>(best);
+    if (!cell_weight) return;
+    std::array<double, PoseGrid::kHeadings> similarities{};
+    std::ranges::transform(sums, similarities.begin(), [&observation](std::int32_t sum) {
+      return observation.similarity(sum);
+    });
+    map.log_weight.at(row, column) = cell_weight(similarities);
   };
   const auto report = [&](std::size_t done) { return progress(done, cells.size()); };
   SEMVIEW_TRY(map.origins,

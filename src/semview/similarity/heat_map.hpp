@@ -19,22 +19,29 @@ namespace semview::similarity {
 /// The largest number of pixels of a heat map: a square kilometre of cells.
 inline constexpr std::int64_t kMaxHeatMapPixels = 100'000'000;
 
+/// What the headings of a cell weigh together, as a logarithm, from the similarity of each.
+using CellWeight = std::function<double(std::span<const double, PoseGrid::kHeadings>)>;
+
 /// Best of `headings` headings for each cell, on the cells' bounding box.
 struct HeatMap {
   CellIndex origin;                  ///< the cell of pixel (row 0, column 0)
   Image<float> similarity;           ///< row 0 = lowest y; NaN: not asked for, or no view
   Image<std::uint8_t> best_heading;  ///< of the PoseGrid; ties: the lowest; 255 where NaN
+  Image<double> log_weight;          ///< of all 120 headings; empty without a `CellWeight`
   ViewOrigins origins;
 
   /// The cell with the highest similarity (ties: the first row by row), and its heading.
   /// Without any view: the origin at heading 0.
-  GridKey best() const;
+  GridKey best() const { return highest(similarity); }
+  /// The same of other values of these cells.
+  GridKey highest(const Image<float>& values) const;
 };
 
 /// @param cells  May repeat.
 /// @param headings  How many of the 120 headings are tried, evenly spaced from 0: a divisor of 120.
 /// @param progress  Called now and then from the calling thread with (cells done, cells); may be
 ///        empty. Returning false ends the work with kCancelled.
+/// @param cell_weight  Called from several threads; empty: no `HeatMap::log_weight`.
 /// @errors kInvalidArgument: no cells, `headings` not a divisor of 120, or cells further apart than
 /// `kMaxHeatMapPixels` allow; kCancelled; kInternal as for `score_poses`; what `views` fails with.
 Result<HeatMap> heat_map(const PreparedObservation& observation,
@@ -42,6 +49,7 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
                          std::span<const CellIndex> cells,
                          int headings,
                          ThreadPool& pool,
-                         const std::function<bool(std::size_t, std::size_t)>& progress = {});
+                         const std::function<bool(std::size_t, std::size_t)>& progress = {},
+                         const CellWeight& cell_weight = {});
 
 }  // namespace semview::similarity
