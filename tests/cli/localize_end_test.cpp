@@ -13,32 +13,22 @@
 #include "semview/geometry/angle.hpp"
 #include "semview/io/trajectory.hpp"
 #include "support/running_server.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/semview_runs.hpp"
 
 namespace semview {
 namespace {
 
+using semview::testing::Arguments;
 using semview::testing::ChildProcess;
 using semview::testing::RunningServer;
 using ::testing::HasSubstr;
-using Arguments = std::vector<std::string>;
 
 const std::string kMap = SEMVIEW_SOURCE_DIR "/maps/duplex_level1";
 
-class LocalizeEndTest : public ::testing::Test {
+class LocalizeEndTest : public semview::testing::SemviewRuns {
  protected:
   void SetUp() override {
     ASSERT_EQ(run({"simulate", kMap, "--out", file("log"), "--steps", "6"}), 0) << errors_;
-  }
-
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
-  int run(const Arguments& arguments) {
-    ChildProcess process("semview", arguments, folder_ / "streams");
-    const int code = process.wait();
-    output_ = process.output();
-    errors_ = process.errors();
-    return code;
   }
 
   /// From the true start, with `more`; writes est.tum.
@@ -56,10 +46,6 @@ class LocalizeEndTest : public ::testing::Test {
     const auto track = io::read_tum(file("est.tum"));
     return track ? track->size() : 0;
   }
-
-  semview::testing::TemporaryFolder folder_;
-  std::string output_;
-  std::string errors_;
 };
 
 TEST_F(LocalizeEndTest, FramesWithoutOdometryAreToldInTheSummary) {

@@ -7,31 +7,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/child_process.hpp"
 #include "support/paths.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/semview_runs.hpp"
 
 namespace semview {
 namespace {
 
+using semview::testing::Arguments;
 using semview::testing::ChildProcess;
 using ::testing::HasSubstr;
-using Arguments = std::vector<std::string>;
 
 const std::string kMap = SEMVIEW_SOURCE_DIR "/maps/duplex_level1";
 
-class UsageTest : public ::testing::Test {
+class UsageTest : public semview::testing::SemviewRuns {
  protected:
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
-  int run(const Arguments& arguments) {
-    ChildProcess process("semview", arguments, folder_ / "streams");
-    const int code = process.wait();
-    output_ = process.output();
-    errors_ = process.errors();
-    return code;
-  }
-
   /// Expects wrong usage (exit code 2) and `words` on standard error.
   void expect_usage(const Arguments& arguments, const std::string& words) {
     EXPECT_EQ(run(arguments), 2) << output_ << errors_;
@@ -49,10 +38,6 @@ class UsageTest : public ::testing::Test {
         {"localize", "--log", file("log"), "--map", kMap, "--init", init, "-o", file("est.tum")},
         words);
   }
-
-  semview::testing::TemporaryFolder folder_;
-  std::string output_;
-  std::string errors_;
 };
 
 TEST_F(UsageTest, AStartThatIsNoneIsRefusedByName) {

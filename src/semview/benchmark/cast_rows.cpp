@@ -108,15 +108,13 @@ Status packets_and_plain_rays(const Circumstances& in, Row& row) {
 
 /// The rays of a view as the peer takes them.
 std::vector<float> rays_of(const PanoramaRequest& view) {
+  const auto x = static_cast<float>(view.map_from_robot.x_m);
+  const auto y = static_cast<float>(view.map_from_robot.y_m);
+  const auto z = static_cast<float>(view.eye_z_m);
   std::vector<float> rays;
-  for (int r = 0; r < view.camera.rows; ++r) {
-    for (int c = 0; c < view.camera.columns; ++c) {
-      const Eigen::Vector3f d = view.camera.direction(r, c).cast<float>();
-      const auto x = static_cast<float>(view.map_from_robot.x_m);
-      const auto y = static_cast<float>(view.map_from_robot.y_m);
-      const auto z = static_cast<float>(view.eye_z_m);
-      rays.insert(rays.end(), {x, y, z, d.x(), d.y(), d.z()});
-    }
+  for (const auto& direction : directions_of(view)) {
+    rays.insert(rays.end(), {x, y, z});
+    rays.insert(rays.end(), direction.begin(), direction.end());
   }
   return rays;
 }
