@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "map_box.hpp"
 #include "map_verbs.hpp"
 #include "semview/map/map_checker.hpp"
 #include "verb.hpp"
@@ -36,13 +37,20 @@ void print_text(const std::string& path, const map::MapCheck& check) {
   }
   const std::size_t errors = check.report.count(map::Severity::kError);
   const std::size_t warnings = check.report.count(map::Severity::kWarning);
-  fmt::print("{}: {}{} error{}, {} warning{}\n",
+  std::string size;
+  if (check.map) {
+    const Box box = box_of(*check.map);
+    const Eigen::Vector3d extent_m = box.high - box.low;
+    size = fmt::format("; {:.2f} x {:.2f} x {:.2f} m", extent_m.x(), extent_m.y(), extent_m.z());
+  }
+  fmt::print("{}: {}{} error{}, {} warning{}{}\n",
              path,
              errors == 0 ? "ok, " : "",
              errors,
              errors == 1 ? "" : "s",
              warnings,
-             warnings == 1 ? "" : "s");
+             warnings == 1 ? "" : "s",
+             size);
 }
 
 /// `check_map` cannot cast rays, which a mesh's free space takes.

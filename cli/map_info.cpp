@@ -4,10 +4,11 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "map_box.hpp"
 #include "map_verbs.hpp"
 #include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
@@ -48,28 +49,6 @@ ordered_json classes_json(const map::SemanticMap& map) {
     classes.push_back(std::move(entry));
   }
   return classes;
-}
-
-/// What the map takes up of frame `map`, metres; a plan reaches to its ceiling or highest slab.
-struct Box {
-  Eigen::Vector3d low;
-  Eigen::Vector3d high;
-};
-
-Box box_of(const map::SemanticMap& map) {
-  if (const map::ColumnMap* columns = map.columns()) {
-    const map::Bounds bounds = columns->bounds();
-    double top_m = map.ground_height_m;
-    for (const ColumnProfile& profile : columns->profiles) {
-      if (!profile.slabs.empty()) top_m = std::max(top_m, profile.slabs.back().z_max_m);
-    }
-    if (map.ceiling) top_m = map.ceiling->height_m;
-    return {{bounds.min_x_m, bounds.min_y_m, map.ground_height_m},
-            {bounds.max_x_m, bounds.max_y_m, top_m}};
-  }
-  Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& vertex : map.mesh()->mesh.vertices) box.extend(vertex);
-  return {box.min().cast<double>(), box.max().cast<double>()};
 }
 
 ordered_json numbers_json(const Eigen::Vector3d& point) {

@@ -32,7 +32,7 @@ void add_observation_option(CLI::App& verb, ObservationOption& option) {
   verb.add_option("--obs", option.folder, "Observation folder, or a run log with --frame")
       ->type_name("DIR")
       ->required();
-  verb.add_option("--frame", option.frame, "Frame of the run log, from 0")->type_name("N");
+  verb.add_option("--frame", option.frame, "Frame of the run log, from 0");
 }
 
 Result<ClassTable> read_observed_classes(const ObservationOption& option) {

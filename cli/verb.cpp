@@ -3,8 +3,11 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "semview/geometry/angle.hpp"
@@ -18,6 +21,23 @@ int report(const Status& status) {
   if (!error.hint.empty()) fmt::print(stderr, "  {}\n", error.hint);
   const bool usage = error.code == ErrorCode::kInvalidArgument && error.field.starts_with("--");
   return usage ? kExitUsage : kExitFailed;
+}
+
+void check_whole_numbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (!option->get_type_name().starts_with("UINT")) continue;  // CLI11's word for unsigned
+    option->check([](const std::string& text) {
+      std::uint64_t number = 0;
+      const char* const end = text.data() + text.size();
+      const auto [stop, status] = std::from_chars(text.data(), end, number);
+      return status == std::errc() && stop == end
+                 ? std::string()
+                 : fmt::format("{} is not a whole number from 0 to {}",
+                               text,
+                               std::numeric_limits<std::uint64_t>::max());
+    });
+  }
+  for (CLI::App* verb : app.get_subcommands({})) check_whole_numbers(*verb);
 }
 
 double shown_deg(double angle_rad) { return std::round(deg_from_rad(angle_rad) * 1e9) / 1e9; }

@@ -36,6 +36,10 @@ void add_bench_verb(CLI::App& app, int& exit_code);
 /// `kExitUsage` for `kInvalidArgument` with a field that starts with "--".
 int report(const Status& status);
 
+/// Has every option of `app` and its verbs that takes a whole number from 0 refuse what is none:
+/// left to itself CLI11 reads -1 as the largest one. For after the verbs have been added.
+void check_whole_numbers(CLI::App& app);
+
 /// Degrees for people and scripts, to a billionth: -120, where pi leaves -119.99999999999999.
 double shown_deg(double angle_rad);
 

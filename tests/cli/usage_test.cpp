@@ -83,6 +83,17 @@ TEST_F(UsageTest, NumbersMustBeFinite) {
                "--converged-within -1: expected a finite number");
 }
 
+TEST_F(UsageTest, WholeNumbersFromZeroAreNoOthers) {
+  const std::string words = " is not a whole number from 0 to 18446744073709551615";
+  for (const std::string bad : {"-1", "1.5", "99999999999999999999", "one"}) {
+    expect_usage({"simulate", kMap, "--out", file("log"), "--seed", bad}, "--seed: " + bad + words);
+    expect_usage({"localize", "--log", "l", "--map", kMap, "--global", "-o", "e", "--seed", bad},
+                 "--seed: " + bad + words);
+    expect_usage({"heatmap", kMap, "--obs", "o", "--frame", bad}, "--frame: " + bad + words);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "log"));
+}
+
 TEST_F(UsageTest, OptionsWithoutEffectAreRefused) {
   const std::string pinhole = "525,525,320,240,640,480";
   expect_usage({"view", kMap, "--pose", "1,-5,0", "--pinhole", pinhole, "--rows", "9"}, "--rows");
