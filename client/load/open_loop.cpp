@@ -143,21 +143,23 @@ class OpenLoop {
 
 Status validate(const LoadConfig& config) {
   if (config.robots < 1 || config.robots > kMaxRobots) {
-    return wrong("--robots", fmt::format("{} robots; expected 1 to {}", config.robots, kMaxRobots));
+    return wrong("--robots",
+                 fmt::format("--robots {}: expected 1 to {}", config.robots, kMaxRobots));
   }
   // Written so that NaN fails.
   if (!(config.rate_hz > 0.0 && config.rate_hz <= 100.0)) {
-    return wrong("--rate", fmt::format("{:g} Hz; expected above 0 to 100", config.rate_hz));
+    return wrong("--rate", fmt::format("--rate {:g}: expected above 0 to 100 Hz", config.rate_hz));
   }
   if (!(config.seconds > 0.0 && config.seconds <= 600.0)) {
-    return wrong("--seconds", fmt::format("{:g} s; expected above 0 to 600", config.seconds));
+    return wrong("--seconds",
+                 fmt::format("--seconds {:g}: expected above 0 to 600", config.seconds));
   }
   const double cycles = config.seconds * config.rate_hz * static_cast<double>(config.robots);
   if (cycles > kMaxCycles) {
     return wrong("--seconds",
-                 fmt::format("{:.0f} cycles in {:g} s; expected at most {:.0f}",
-                             cycles,
+                 fmt::format("--seconds {:g}: {:.0f} cycles; expected at most {:.0f}",
                              config.seconds,
+                             cycles,
                              kMaxCycles));
   }
   return {};
