@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "bench_served.hpp"
 #include "bench_verbs.hpp"
 #include "semview/benchmark/growth.hpp"
 #include "semview/benchmark/suite.hpp"
@@ -84,6 +85,7 @@ Status run(const Options& options) {
   }
   benchmark::SuiteConfig config = options.suite;
   config.maps.assign(options.maps.begin(), options.maps.end());
+  config.serve = serve_on_loopback();
   const auto rows = benchmark::run_suite(config, show_progress);
   if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
   if (!rows) return fail(rows.error());

@@ -73,6 +73,7 @@ class Connection::Line {
 
   const ConnectionConfig& config() const { return config_; }
   std::uint64_t server_epoch() const { return server_epoch_; }
+  std::uint64_t received_bytes() const { return received_bytes_; }
 
   Result<std::string> call(std::string_view method, std::string_view body, Repeat repeat) {
     const auto deadline = SteadyClock::now() + config_.timeout;
@@ -93,6 +94,7 @@ class Connection::Line {
       }
       Reply& answer = **reply;
       server_epoch_ = answer.header.server_epoch();
+      received_bytes_ += answer.body.size();
       if (!answer.header.has_error()) return std::move(answer.body);
       Error error = protocol::from_wire(answer.header.error());
       const Milliseconds pause{error.retry_after_ms};
@@ -251,6 +253,7 @@ class Connection::Line {
   std::uint64_t request_id_ = 0;
   std::optional<SteadyClock::time_point> probe_sent_;  ///< the last request asks only for a sign
   std::uint64_t server_epoch_ = 0;
+  std::uint64_t received_bytes_ = 0;
 };
 
 Result<Connection> Connection::open(const ConnectionConfig& config) {
@@ -271,6 +274,7 @@ Connection& Connection::operator=(Connection&&) noexcept = default;
 
 const ConnectionConfig& Connection::config() const { return line_->config(); }
 std::uint64_t Connection::server_epoch() const { return line_->server_epoch(); }
+std::uint64_t Connection::received_bytes() const { return line_->received_bytes(); }
 
 Result<std::string> Connection::call(std::string_view method,
                                      std::string_view body,

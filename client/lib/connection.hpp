@@ -60,6 +60,9 @@ class Connection {
   /// client (observations, jobs) is gone when this changes.
   std::uint64_t server_epoch() const;
 
+  /// Bytes of the bodies of all replies so far.
+  std::uint64_t received_bytes() const;
+
  private:
   class Line;
   explicit Connection(std::unique_ptr<Line> line);

@@ -29,6 +29,9 @@ class RemoteViewSource final : public ViewSource {
   /// under this id.
   Result<ViewBatch> views(std::span<const CellIndex> cells) override;
 
+  /// Bytes of the server's replies so far. @threads not during a call of `views`
+  std::uint64_t received_bytes() const { return connection_.received_bytes(); }
+
  private:
   RemoteViewSource(Connection connection, protocol::MapDescription map);
 

@@ -24,10 +24,9 @@ double thread_s() {
 double read(TurnsClock clock) { return clock == TurnsClock::kThread ? thread_s() : now_s(); }
 
 /// Seconds an item of some passes over all of them.
-double item_s(const Contender& contender, int passes, ThreadPool& pool) {
+double item_s(const Contender& contender, int passes, ThreadPool& pool, TurnsClock clock) {
   // A few tasks a thread: as the service cuts its work, and no thread ends long before the others.
   const std::size_t grain = std::max<std::size_t>(1, contender.items / (8 * pool.threads()));
-  const TurnsClock clock = clock_for(pool);
   const double start_s = read(clock);
   for (int pass = 0; pass < passes; ++pass) {
     pool.parallel_for(contender.items, grain, [&](std::size_t begin, std::size_t end) {
@@ -37,9 +36,9 @@ double item_s(const Contender& contender, int passes, ThreadPool& pool) {
   return (read(clock) - start_s) / (passes * static_cast<double>(contender.items));
 }
 
-double turn_s(const Contender& contender, int passes, ThreadPool& pool) {
+double turn_s(const Contender& contender, int passes, ThreadPool& pool, TurnsClock clock) {
   contender.item(0);
-  return item_s(contender, passes, pool);
+  return item_s(contender, passes, pool, clock);
 }
 
 class Samples {
@@ -74,9 +73,10 @@ Turns take_turns(const Contender& ours,
                  const Contender& other,
                  ThreadPool& pool,
                  const TurnsConfig& config) {
+  const TurnsClock clock = config.clock.value_or(clock_for(pool));
   const double begin_s = now_s();
-  const double ours_s = item_s(ours, 1, pool) * static_cast<double>(ours.items);
-  const double other_s = item_s(other, 1, pool) * static_cast<double>(other.items);
+  const double ours_s = item_s(ours, 1, pool, clock) * static_cast<double>(ours.items);
+  const double other_s = item_s(other, 1, pool, clock) * static_cast<double>(other.items);
   const int our_passes = passes_for(other_s / 10.0, ours_s);
   const int other_passes = passes_for(ours_s / 10.0, other_s);
   Samples our_samples;
@@ -84,24 +84,25 @@ Turns take_turns(const Contender& ours,
   Turns turns;
   while (turns.rounds < config.fewest_rounds ||
          (turns.rounds < config.most_rounds && now_s() - begin_s < config.budget_s)) {
-    our_samples.add(turn_s(ours, our_passes, pool));
-    other_samples.add(turn_s(other, other_passes, pool));
+    our_samples.add(turn_s(ours, our_passes, pool, clock));
+    other_samples.add(turn_s(other, other_passes, pool, clock));
     ++turns.rounds;
   }
   turns.ours = our_samples.timing();
   turns.other = other_samples.timing();
-  turns.clock = clock_for(pool);
+  turns.clock = clock;
   return turns;
 }
 
 Timing time_alone(const Contender& work, ThreadPool& pool, const TurnsConfig& config) {
+  const TurnsClock clock = config.clock.value_or(clock_for(pool));
   const double begin_s = now_s();
-  static_cast<void>(item_s(work, 1, pool));
+  static_cast<void>(item_s(work, 1, pool, clock));
   Samples samples;
   for (int round = 0; round < config.fewest_rounds ||
                       (round < config.most_rounds && now_s() - begin_s < config.budget_s);
        ++round) {
-    samples.add(item_s(work, 1, pool));
+    samples.add(item_s(work, 1, pool, clock));
   }
   return samples.timing();
 }

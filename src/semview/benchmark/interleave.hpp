@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "semview/core/thread_pool.hpp"
@@ -44,6 +45,8 @@ struct TurnsConfig {
   double budget_s = 0.6;  ///< ends after the round that passes it
   int fewest_rounds = 3;
   int most_rounds = 200;
+  /// None: that of the pool. Of work that other threads do only the wall tells.
+  std::optional<TurnsClock> clock = {};
 };
 
 /// Ours, then the other, round after round in this process, by the same clock: what else the

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "semview/benchmark/interleave.hpp"
+#include "semview/benchmark/served_site.hpp"
 #include "semview/benchmark/subject.hpp"
 #include "semview/benchmark/table.hpp"
 
@@ -24,6 +25,9 @@ struct Extent {
   std::size_t floor_cells = 100'000;  ///< of the posterior of a whole floor
   std::size_t stored_cells = 512;     ///< coded
   std::size_t precomputed_cells = 4096;
+  std::size_t cold_cells = 20;      ///< asked for over TCP one by one
+  std::size_t served_cells = 1000;  ///< asked for over TCP at once
+  std::size_t served_poses = 2000;
   TurnsConfig turns = {};
 };
 
@@ -33,6 +37,7 @@ struct Circumstances {
   ThreadPool& pool;
   const Extent& extent;
   const std::string& engine;  ///< of rows that open a site
+  const Serve& serve;         ///< may be empty: rows that need a server say so
 };
 
 /// Fills in a row's finding, or its note.
@@ -57,6 +62,7 @@ std::vector<RowKind> floor_rows();
 std::vector<RowKind> storage_rows();
 std::vector<RowKind> site_rows();
 std::vector<RowKind> memory_rows();
+std::vector<RowKind> served_rows();
 
 Goal at_least(double ratio, std::optional<double> then = {});
 

@@ -75,7 +75,8 @@ std::vector<RowKind> all_kinds() {
                      &detail::floor_rows,
                      &detail::storage_rows,
                      &detail::site_rows,
-                     &detail::memory_rows}) {
+                     &detail::memory_rows,
+                     &detail::served_rows}) {
     for (RowKind& kind : (*more)()) kinds.push_back(std::move(kind));
   }
   return kinds;
@@ -85,7 +86,7 @@ Extent extent_of(const SuiteConfig& config) {
   Extent extent;
   extent.turns.budget_s = config.budget_s;
   if (config.quick) {
-    extent = {2, 1, 4, 1, 32, 8, 24, {0.0, 1, 1}};
+    extent = {2, 1, 4, 1, 32, 8, 24, 2, 10, 40, {0.0, 1, 1}};
   }
   return extent;
 }
@@ -192,8 +193,8 @@ Result<std::vector<Row>> run_suite(const SuiteConfig& config,
     std::unique_ptr<ThreadPool>& pool = pools[job.row.threads];
     if (pool == nullptr)
       pool = std::make_unique<ThreadPool>(static_cast<std::size_t>(job.row.threads));
-    if (const Status status =
-            job.kind->measure({*subject, job.camera, *pool, extent, config.engine}, job.row);
+    if (const Status status = job.kind->measure(
+            {*subject, job.camera, *pool, extent, config.engine, config.serve}, job.row);
         !status) {
       job.row.note = status.error().message;
       job.row.disagrees = status.error().code == ErrorCode::kInternal;

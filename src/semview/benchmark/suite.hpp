@@ -10,6 +10,7 @@
 
 #include "semview/benchmark/interleave.hpp"
 #include "semview/benchmark/office_plan.hpp"
+#include "semview/benchmark/served_site.hpp"
 #include "semview/benchmark/subject.hpp"
 #include "semview/benchmark/table.hpp"
 #include "semview/core/result.hpp"
@@ -24,6 +25,7 @@ struct SuiteConfig {
   /// One small plan, small panoramas and as few rounds as can be: checks that results agree, and
   /// its times say nothing.
   bool quick = false;
+  Serve serve = {};       ///< none: rows over TCP say that there is no server
   double budget_s = 0.6;  ///< of one measurement, beyond its fewest rounds
 };
 
