@@ -29,7 +29,6 @@
 #include "semview/raycast/column_renderer.hpp"
 #include "semview/raycast/column_scene.hpp"
 #include "semview/view/view_codec.hpp"
-#include "semview/view/view_model.hpp"
 #include "storage_codings.hpp"
 #include "storage_likelihoods.hpp"
 
@@ -123,38 +122,6 @@ Coding codec_2(bool ranges) {
           }};
 }
 
-/// All views of a block in one walk, which has learned from one what it needs for the next.
-Coding codec_2_block() {
-  return {"codec 2, 8x8 block",
-          kBlockCells * kBlockCells,
-          [](std::span<const ColumnView> views) {
-            detail::RangeEncoder encoder;
-            detail::ColumnWalk walk(encoder, 360, 90, false);
-            for (const ColumnView& view : views) {
-              for (int c = 0; c < view.columns(); ++c) walk.code_column(view.column(c), {});
-            }
-            return std::move(encoder).finish();
-          },
-          [](const Bytes& bytes, std::span<const ColumnView> views) {
-            detail::RangeDecoder decoder(bytes);
-            detail::ColumnWalk walk(decoder, 360, 90, false);
-            bool equal = true;
-            for (std::size_t i = 0; i < kBlockCells * kBlockCells; ++i) {
-              for (int c = 0; c < 360; ++c) {
-                if (!walk.code_column({}, {})) return false;
-                if (views.empty()) continue;
-                equal = equal && std::ranges::equal(walk.edges(),
-                                                    views[i].column(c),
-                                                    [](const detail::Edge& edge, const Run& run) {
-                                                      return edge.row == run.end_row &&
-                                                             edge.label == run.label;
-                                                    });
-              }
-            }
-            return equal;
-          }};
-}
-
 std::vector<Coding> codings(const Blocks& blocks) {
   // Dictionaries learn from every other block and are measured on all: in their favour.
   std::vector<Bytes> samples;
@@ -172,8 +139,7 @@ std::vector<Coding> codings(const Blocks& blocks) {
           zstd("delta runs, zstd 15, dictionary", delta_runs, Zstd(15, dictionary)),
           codec_2(false),
           zstd("delta runs, zstd 3, 8x8 block", delta_runs, Zstd(3), kBlock),
-          zstd("delta runs, zstd 15, 8x8 block", delta_runs, Zstd(15), kBlock),
-          codec_2_block()};
+          zstd("delta runs, zstd 15, 8x8 block", delta_runs, Zstd(15), kBlock)};
 }
 
 /// One round; false if something did not come back as it was.
@@ -240,7 +206,7 @@ int run(std::vector<std::string> arguments) {
       arguments.push_back(std::string(SEMVIEW_SOURCE_DIR "/maps/") + name);
     }
   }
-  AnswerCounts counts(detail::ViewSituations::kCount);
+  SymbolCounts counts{};
   int code = 0;
   for (const std::string& path : arguments) {
     const auto loaded = map::load_map(path);
@@ -251,7 +217,7 @@ int run(std::vector<std::string> arguments) {
       return 1;
     }
     if (likelihoods) {
-      count_answers(cast_blocks(*plan, false), counts);
+      count_symbols(cast_blocks(*plan, false), counts);
     } else {
       code = std::max(code, print_table(loaded->id, *plan));
     }

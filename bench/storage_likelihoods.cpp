@@ -4,54 +4,44 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "semview/view/view_model.hpp"
+#include "semview/view/view_codec_2.hpp"
+#include "semview/view/view_situations.hpp"
 
 namespace semview::bench {
-namespace {
 
-/// In place of an encoder: counts the answers.
-class AnswerCounter {
- public:
-  static constexpr bool kDecodes = false;
-
-  AnswerCounter(AnswerCounts& counts, double weight) : counts_(counts), weight_(weight) {}
-  void count_for(const detail::ViewSituations& situations) { situations_ = &situations; }
-  bool code(detail::AdaptiveBit& situation, bool yes) {
-    const std::size_t place = situations_->place_of(situation);
-    if (place < counts_.size()) (yes ? counts_[place].second : counts_[place].first) += weight_;
-    return yes;
-  }
-  std::uint32_t code_plain(std::uint32_t value, unsigned /*count*/) { return value; }
-
- private:
-  AnswerCounts& counts_;
-  double weight_;
-  const detail::ViewSituations* situations_ = nullptr;
-};
-
-}  // namespace
-
-void count_answers(std::span<const std::vector<ColumnView>> blocks, AnswerCounts& counts) {
-  AnswerCounter counter(counts, 1.0 / (64.0 * static_cast<double>(blocks.size())));
+void count_symbols(std::span<const std::vector<ColumnView>> blocks, SymbolCounts& counts) {
   for (const std::vector<ColumnView>& block : blocks) {
     for (const ColumnView& view : block) {
-      detail::ColumnWalk walk(counter, view.columns(), view.rows(), false);
-      counter.count_for(walk.situations());
-      for (int c = 0; c < view.columns(); ++c) walk.code_column(view.column(c), {});
+      const detail::SymbolWriter writer = detail::symbols_of(view);
+      for (const detail::SymbolWriter::Symbol& symbol : writer.symbols()) {
+        counts[symbol.situation][symbol.symbol] +=
+            1.0 / (64.0 * static_cast<double>(blocks.size()));
+      }
     }
   }
 }
 
-void print_likelihoods(const AnswerCounts& counts) {
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto& [no, yes] = counts[i];
-    const int of_256 = static_cast<int>(256.0 * (yes + 0.002) / (no + yes + 0.004));
-    fmt::print("{}{},", i % 16 == 0 ? "\n    " : " ", std::clamp(of_256, 1, 254));
+void print_likelihoods(const SymbolCounts& counts) {
+  constexpr double kWhole = 1U << detail::kShareBits;
+  constexpr double kSeen = 0.003;  // as if, once in so many views: none is ever impossible
+  for (detail::Situation situation = 0; situation < counts.size(); ++situation) {
+    const std::uint32_t symbols = detail::symbols_of(situation);
+    double all = 0.0;
+    for (std::uint32_t i = 0; i < symbols; ++i) all += counts[situation][i] + kSeen;
+    std::vector<int> sizes;
+    for (std::uint32_t i = 0; i < symbols; ++i) {
+      const double share = (counts[situation][i] + kSeen) / all;
+      sizes.push_back(1 + static_cast<int>(share * (kWhole - symbols)));
+    }
+    *std::ranges::max_element(sizes) +=
+        static_cast<int>(kWhole) - std::accumulate(sizes.begin(), sizes.end(), 0);
+    fmt::print("    {},\n", fmt::join(sizes, ", "));
   }
-  fmt::print("\n");
 }
 
 }  // namespace semview::bench

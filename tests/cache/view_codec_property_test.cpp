@@ -25,6 +25,53 @@ TEST(ViewCodecTest, DecodesWhatItEncoded) {
   }));
 }
 
+// As rooms look: edges that move at all speeds, now and then a column of other classes.
+ColumnView rhythmic_view(std::uint64_t seed, int columns, int rows) {
+  Rng rng(seed, "rhythm");
+  LabelImage labels(rows, columns);
+  double upper = 0.3, lower = 0.7, speed = 0.0;
+  ClassId wall = 1;
+  for (int c = 0; c < columns; ++c) {
+    if (rng.uniform() < 0.05) speed = rng.uniform(-1.0, 1.0) * rng.uniform() * rng.uniform();
+    if (rng.uniform() < 0.03) wall = static_cast<ClassId>(rng.below(20));
+    if (rng.uniform() < 0.02) upper = rng.uniform();
+    upper = std::clamp(upper + speed, 0.0, 1.0);
+    lower = std::clamp(lower - speed / 3.0, 0.0, 1.0);
+    for (int r = 0; r < rows; ++r) {
+      const double height = (r + 0.5) / rows;
+      labels.at(r, c) = height < upper ? 30 : height < lower ? wall : 31;
+    }
+  }
+  return ColumnView::from_labels(labels);
+}
+
+TEST(ViewCodecTest, DecodesEdgesThatMoveSteadily) {
+  EXPECT_TRUE(rc::check([] {
+    const int columns = *rc::gen::inRange(1, 1200);
+    const int rows = *rc::gen::inRange(1, 1024);
+    const ColumnView view = rhythmic_view(*rc::gen::arbitrary<std::uint64_t>(), columns, rows);
+    const auto decoded = decode_view(kViewCodec, encode_view(view), {columns, rows, false});
+    RC_ASSERT(decoded.has_value());
+    RC_ASSERT(*decoded == view);
+  }));
+}
+
+// More edges than a word has bits, each moving in its own columns.
+TEST(ViewCodecTest, DecodesMoreEdgesThanAWordHasBits) {
+  LabelImage labels(900, 240);
+  for (int c = 0; c < 240; ++c) {
+    for (int r = 0; r < 900; ++r) {
+      const int run = std::clamp((r + (c % (3 + (r / 6) % 5) == 0 ? 1 : 0)) / 6, 0, 149);
+      labels.at(r, c) = static_cast<ClassId>(1 + run % 2);
+    }
+  }
+  const ColumnView view = ColumnView::from_labels(labels);
+  ASSERT_GT(view.column(0).size(), 128U);
+  const auto decoded = decode_view(kViewCodec, encode_view(view), {240, 900, false});
+  ASSERT_TRUE(decoded.has_value());
+  EXPECT_EQ(*decoded, view);
+}
+
 TEST(ViewCodecTest, CodesTheLargestPanorama) {
   const ColumnView view = testing::random_view(1, 3600, 1024);
   const auto decoded = decode_view(kViewCodec, encode_view(view), {3600, 1024, false});

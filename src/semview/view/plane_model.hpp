@@ -2,25 +2,23 @@
 /// What planes are likely in a view with ranges; for the sources of this module.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "semview/view/column_view.hpp"
 #include "semview/view/range_coder.hpp"
 
 namespace semview::detail {
-
-/// The plane of a run, and that of the run it goes on from in the column before.
-struct PlaneState {
-  RunPlane plane;
-  float a_before_per_m = 0.0F;
-  int columns = 0;  ///< in a row that may lie on one surface; 2 stands for more
-};
 
 /// Codes planes by their difference to what the columns to the left foretell, without loss.
 ///
@@ -31,8 +29,58 @@ class PlaneModel {
   explicit PlaneModel(int columns)
       : twice_cosine_(static_cast<float>(2.0 * std::cos(2.0 * std::numbers::pi / columns))) {}
 
+  /// Writes the planes of a view, one a run, or reads them into `planes`.
   template <typename Coder>
-  void code(Coder& coder, ClassId label, const RunPlane& plane, PlaneState& state) {
+  void code(Coder& coder,
+            std::span<const std::uint32_t> first_run,
+            std::span<const Run> runs,
+            std::span<RunPlane> planes) {
+    std::vector<State> left;
+    std::vector<State> states;
+    for (std::size_t c = 0; c + 1 < first_run.size(); ++c) {
+      const auto column = runs.subspan(first_run[c], first_run[c + 1] - first_run[c]);
+      states.assign(column.size(), {});
+      if (c > 0) {
+        go_on(
+            runs.subspan(first_run[c - 1], first_run[c] - first_run[c - 1]), left, column, states);
+      }
+      for (std::size_t i = 0; i < column.size(); ++i) {
+        RunPlane& plane = planes[first_run[c] + i];
+        code_plane(coder, column[i].label, plane, states[i]);
+        plane = states[i].plane;
+      }
+      std::swap(left, states);
+    }
+  }
+
+ private:
+  /// The plane of a run, and that of the run it goes on from in the column before.
+  struct State {
+    RunPlane plane;
+    float a_before_per_m = 0.0F;
+    int columns = 0;  ///< in a row that may lie on one surface; 2 stands for more
+  };
+
+  /// Each run goes on that to the left of its first row, if that is of its class; in a column of
+  /// the same classes, on the one in its place.
+  static void go_on(std::span<const Run> left,
+                    std::span<const State> left_states,
+                    std::span<const Run> column,
+                    std::span<State> states) {
+    const auto same_class = [](const Run& a, const Run& b) { return a.label == b.label; };
+    if (std::equal(left.begin(), left.end(), column.begin(), column.end(), same_class)) {
+      std::copy(left_states.begin(), left_states.end(), states.begin());
+      return;
+    }
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      while (i > 0 && left[at].end_row <= column[i - 1].end_row) ++at;
+      if (same_class(left[at], column[i])) states[i] = left_states[at];
+    }
+  }
+
+  template <typename Coder>
+  void code_plane(Coder& coder, ClassId label, const RunPlane& plane, State& state) {
     if (label == kNoHit) {
       state = {};
       return;
@@ -55,7 +103,6 @@ class PlaneModel {
     last_[label] = coded;
   }
 
- private:
   static constexpr std::int64_t kSameSurface = 1 << 12;
 
   /// Bits of a difference: how many they are, one question a step, then all but the highest plain.
@@ -66,7 +113,7 @@ class PlaneModel {
 
   /// The product of two floats is exact in double, so that contracting it with the difference into
   /// one instruction, as some machines do, gives the same bits.
-  float foretell(const PlaneState& state) const {
+  float foretell(const State& state) const {
     if (state.columns < 2) return state.plane.a_per_m;
     const double a = static_cast<double>(twice_cosine_) * static_cast<double>(state.plane.a_per_m) -
                      static_cast<double>(state.a_before_per_m);

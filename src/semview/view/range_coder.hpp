@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Binary arithmetic coding with adaptive probabilities; for the sources of this module.
+/// Arithmetic coding of symbols and of bits; for the sources of this module.
 ///
-/// Encoder and decoder have the same members, so that one model, written once as a template, drives
-/// both: `code` takes the bit to write and gives back the bit that was written or read.
-/// docs/formats/cache_record.md#codec-2 has the arithmetic, bit by bit.
+/// Encoder and decoder have the same members for bits, so that one model of them, written once as
+/// a template, drives both: `code` takes the bit to write and gives back the bit that was written
+/// or read. docs/formats/cache_record.md#codec-2 has the arithmetic.
 #pragma once
 
-#include <bit>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,53 +17,61 @@ namespace semview::detail {
 /// How likely the next bit in one situation is a 1, of 2^16; learns from each bit.
 class AdaptiveBit {
  public:
-  /// Of 2^16; 31 <= probability < 2^16 - 31.
-  explicit AdaptiveBit(std::uint16_t probability = 1U << 15U) : probability_(probability) {}
-
   /// Stays within 31 and 2^16 - 31, so that neither bit ever becomes impossible.
   void learn(bool bit) {
     probability_ = static_cast<std::uint16_t>(bit ? probability_ + ((kOne - probability_) >> kRate)
                                                   : probability_ - (probability_ >> kRate));
   }
-  /// Where [low, high] is cut: up to and including it the bit is a 1.
-  std::uint32_t cut(std::uint32_t low, std::uint32_t high) const {
-    return low + static_cast<std::uint32_t>((std::uint64_t{high - low} * probability_) >> 16U);
-  }
+  std::uint64_t probability() const { return probability_; }
+
+  static constexpr unsigned kProbabilityBits = 16;
 
  private:
-  static constexpr std::uint32_t kOne = 1U << 16U;
+  static constexpr std::uint32_t kOne = 1U << kProbabilityBits;
   static constexpr unsigned kRate = 5;
-  std::uint16_t probability_;
+  std::uint16_t probability_ = kOne / 2;
 };
+
+/// The part of an interval that a symbol takes: [start, start + size) of 2^kShareBits.
+struct Share {
+  std::uint32_t start = 0;
+  std::uint32_t size = 0;  ///< at least 1
+};
+inline constexpr unsigned kShareBits = 12;
+
+/// Below this an interval is widened by four bytes. Nothing codes with shares of less than 2^-16,
+/// so it has been widened enough then.
+inline constexpr std::uint64_t kNarrow = std::uint64_t{1} << 32U;
 
 class RangeEncoder {
  public:
   static constexpr bool kDecodes = false;
 
+  void code(Share share) {
+    const std::uint64_t unit = size_ >> kShareBits;
+    narrow(unit * share.start, unit * share.size);
+  }
   bool code(AdaptiveBit& situation, bool bit) {
-    narrow(situation.cut(low_, high_), bit);
+    const std::uint64_t cut = (size_ >> AdaptiveBit::kProbabilityBits) * situation.probability();
+    narrow(bit ? 0 : cut, bit ? cut : size_ - cut);
     situation.learn(bit);
     return bit;
   }
-  /// The lowest `count` bits of `value`, each as likely 0 as 1, the highest first.
+  /// The lowest `count` bits of `value`, each as likely 0 as 1.
   std::uint32_t code_plain(std::uint32_t value, unsigned count) {
-    for (unsigned k = count; k-- > 0;) {
-      narrow(low_ + ((high_ - low_) >> 1U), ((value >> k) & 1U) != 0);
-    }
+    for (; count > 16; count -= 16) code_few(value >> (count - 16), 16);
+    code_few(value, count);
     return value;
   }
   void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
   /// The fewest bytes that name a number in the interval; zeros follow by themselves.
   std::vector<std::byte> finish() && {
-    for (unsigned kept = 8; kept <= 32; kept += 8) {
-      const std::uint32_t rest = kept == 32 ? 0U : ~0U >> kept;
-      if (low_ > ~rest) continue;
-      const std::uint32_t number = (low_ + rest) & ~rest;
-      if (number > high_) continue;
-      for (unsigned shift = 24; shift + kept >= 32; shift -= 8) {
-        bytes_.push_back(static_cast<std::byte>((number >> shift) & 0xffU));
-        if (shift == 0) break;
-      }
+    for (unsigned bytes = 1; bytes <= 8; ++bytes) {
+      const std::uint64_t rest = bytes == 8 ? 0 : ~std::uint64_t{0} >> (8 * bytes);
+      const std::uint64_t number = (low_ + rest) & ~rest;
+      if (number - low_ >= size_) continue;
+      if (number < low_) carry();
+      for (unsigned i = 0; i < bytes; ++i) bytes_.push_back(byte_of(number, i));
       break;
     }
     while (!bytes_.empty() && bytes_.back() == std::byte{0}) bytes_.pop_back();
@@ -71,18 +79,34 @@ class RangeEncoder {
   }
 
  private:
-  void narrow(std::uint32_t cut, bool bit) {
-    high_ = bit ? cut : high_;
-    low_ = bit ? low_ : cut + 1;
-    while (((low_ ^ high_) >> 24U) == 0) {
-      bytes_.push_back(static_cast<std::byte>(high_ >> 24U));
-      low_ <<= 8U;
-      high_ = (high_ << 8U) | 0xffU;
-    }
+  void code_few(std::uint32_t value, unsigned count) {
+    const std::uint64_t unit = size_ >> count;
+    narrow(unit * (value & ((1U << count) - 1U)), unit);
+  }
+  void narrow(std::uint64_t start, std::uint64_t size) {
+    low_ += start;
+    if (low_ < start) carry();
+    size_ = size;
+    if (size_ >= kNarrow) return;
+    const std::size_t end = bytes_.size();
+    bytes_.resize(end + 4);
+    for (unsigned i = 0; i < 4; ++i) bytes_[end + i] = byte_of(low_, i);
+    low_ <<= 32U;
+    size_ <<= 32U;
+  }
+  void carry() {
+    // What has been coded is below 1, so some byte takes it.
+    std::size_t i = bytes_.size();
+    while (bytes_[i - 1] == std::byte{0xff}) bytes_[--i] = std::byte{0};
+    bytes_[i - 1] = static_cast<std::byte>(static_cast<unsigned>(bytes_[i - 1]) + 1U);
+  }
+  /// From the highest.
+  static std::byte byte_of(std::uint64_t number, unsigned i) {
+    return static_cast<std::byte>((number >> (56 - 8 * i)) & 0xffU);
   }
 
-  std::uint32_t low_ = 0;
-  std::uint32_t high_ = ~0U;
+  std::uint64_t low_ = 0;
+  std::uint64_t size_ = ~std::uint64_t{0};
   std::vector<std::byte> bytes_;
 };
 
@@ -92,46 +116,61 @@ class RangeDecoder {
   static constexpr bool kDecodes = true;
 
   explicit RangeDecoder(std::span<const std::byte> bytes) : bytes_(bytes) {
-    for (int i = 0; i < 4; ++i) take_byte();
+    take_bytes();
+    take_bytes();
   }
 
+  /// Where in [0, 2^kShareBits) the next symbol's share lies; `take` it then.
+  std::uint32_t place() const {
+    // Bytes that nobody wrote may lie behind the last share.
+    constexpr std::uint64_t kLast = (1U << kShareBits) - 1U;
+    return static_cast<std::uint32_t>(std::min(number_ / (size_ >> kShareBits), kLast));
+  }
+  void take(Share share) {
+    const std::uint64_t unit = size_ >> kShareBits;
+    narrow(unit * share.start, unit * share.size);
+  }
   bool code(AdaptiveBit& situation, bool /*bit*/) {
-    const bool bit = narrow(situation.cut(low_, high_));
+    const std::uint64_t cut = (size_ >> AdaptiveBit::kProbabilityBits) * situation.probability();
+    const bool bit = number_ < cut;
+    narrow(bit ? 0 : cut, bit ? cut : size_ - cut);
     situation.learn(bit);
     return bit;
   }
   std::uint32_t code_plain(std::uint32_t /*value*/, unsigned count) {
     std::uint32_t value = 0;
-    for (; count > 0; --count) {
-      value = 2 * value + (narrow(low_ + ((high_ - low_) >> 1U)) ? 1U : 0U);
-    }
-    return value;
+    for (; count > 16; count -= 16) value = value << 16U | decode_few(16);
+    return value << count | decode_few(count);
   }
   /// Whether every byte was needed, as after `RangeEncoder::finish`.
   bool finished() const { return next_ >= bytes_.size(); }
 
  private:
-  bool narrow(std::uint32_t cut) {
-    const bool bit = number_ <= cut;
-    high_ = bit ? cut : high_;
-    low_ = bit ? low_ : cut + 1;
-    while (((low_ ^ high_) >> 24U) == 0) {
-      low_ <<= 8U;
-      high_ = (high_ << 8U) | 0xffU;
-      take_byte();
-    }
-    return bit;
+  std::uint32_t decode_few(unsigned count) {
+    const std::uint64_t unit = size_ >> count;
+    const std::uint64_t last = (std::uint64_t{1} << count) - 1;
+    const std::uint64_t value = std::min(number_ / unit, last);
+    narrow(unit * value, unit);
+    return static_cast<std::uint32_t>(value);
   }
-  void take_byte() {
-    number_ <<= 8U;
-    if (next_ < bytes_.size()) number_ |= static_cast<std::uint32_t>(bytes_[next_++]);
+  void narrow(std::uint64_t start, std::uint64_t size) {
+    number_ -= start;
+    size_ = size;
+    if (size_ >= kNarrow) return;
+    size_ <<= 32U;
+    take_bytes();
+  }
+  void take_bytes() {
+    for (int i = 0; i < 4; ++i) {
+      number_ <<= 8U;
+      if (next_ < bytes_.size()) number_ |= static_cast<std::uint64_t>(bytes_[next_++]);
+    }
   }
 
   std::span<const std::byte> bytes_;
   std::size_t next_ = 0;
-  std::uint32_t low_ = 0;
-  std::uint32_t high_ = ~0U;
-  std::uint32_t number_ = 0;
+  std::uint64_t size_ = ~std::uint64_t{0};
+  std::uint64_t number_ = 0;  // of the interval, from its start
 };
 
 }  // namespace semview::detail

@@ -1,131 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The situations of `ColumnWalk` and how likely yes is in each to begin with; for the sources of
-/// this module.
+/// The situations of `ColumnWalk` and how likely each symbol is in them; for the sources of this
+/// module.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <cstdlib>
 
-#include "semview/semantics/class_table.hpp"
 #include "semview/view/range_coder.hpp"
 
 namespace semview::detail {
 
-inline constexpr std::size_t kSizeBits = 7;
-inline constexpr std::size_t kLabelTree = 16;
-inline constexpr unsigned kRowTreeBits = 3;
-inline constexpr std::uint32_t kTopOfColumn = 7;
+/// Names a row of the table of likelihoods.
+using Situation = std::uint32_t;
 
-/// The classes of a view in the order in which they came up, so that a situation can name one
-/// without knowing the map.
-class KnownLabels {
- public:
-  static constexpr std::uint32_t kRoom = 15;
-
-  KnownLabels() { places_.fill(kRoom); }
-  bool has(std::uint32_t place) const { return place < count_; }
-  ClassId label_at(std::uint32_t place) const { return labels_[place]; }
-  /// The place of a new class is the next free one; `kRoom` once all are taken.
-  std::uint32_t place_of(ClassId label) const {
-    return std::min<std::uint32_t>(places_[label], count_);
-  }
-  void add(ClassId label) {
-    if (count_ == kRoom || places_[label] != kRoom) return;
-    places_[label] = static_cast<std::uint8_t>(count_);
-    labels_[count_++] = label;
-  }
-
- private:
-  std::array<std::uint8_t, 256> places_;
-  std::array<ClassId, kRoom> labels_{};
-  std::uint32_t count_ = 0;
-};
+// Symbols. 0 of a gap is that an edge ends before it moves again.
+inline constexpr std::uint32_t kGapSymbols = 18;
+inline constexpr std::uint32_t kStepSymbols = 12;
+inline constexpr std::uint32_t kStepElsewhere = kStepSymbols - 1;
+inline constexpr std::int32_t kStepsBack = 4;   // the first symbols of a step: against the last one
+inline constexpr std::int32_t kStepsAhead = 7;  // and those that follow: with it
+inline constexpr std::uint32_t kLabelCandidates = 3;
+inline constexpr std::uint32_t kLabelKnown = kLabelCandidates;
+inline constexpr std::uint32_t kLabelElsewhere = kLabelCandidates + 1;
+inline constexpr std::uint32_t kKnownLabels = 12;
+inline constexpr std::uint32_t kEndCandidates = 3;
+inline constexpr std::int32_t kReach = 2;  // rows within which an edge counts as that of the left
+inline constexpr std::uint32_t kEndElsewhere = kEndCandidates * (2 * kReach + 1);
+inline constexpr std::uint32_t kRowSymbols = 16;
+inline constexpr std::uint32_t kMostSymbols = kGapSymbols;
 
 /// Each function names one situation; its arguments are what the walk knows there.
 class ViewSituations {
  public:
-  static constexpr std::size_t kCount = 128 + 4 + 384 + 6 + 28 + 4 + 128 + 24 + 6 + 2 + 8;
+  /// The columns to the next fresh one.
+  static constexpr Situation kFreshGap = 0;
+  /// The rows from a run's first to its last where no edge to the left tells it.
+  static constexpr Situation kRow = 1;
+  static constexpr Situation kKnown = 2;
+  static constexpr Situation kEnd = kKnown + 9;
+  static constexpr Situation kLabel = kEnd + 24;
+  static constexpr Situation kStep = kLabel + 40;
+  static constexpr Situation kFirstGap = kStep + 30;
+  static constexpr Situation kGap = kFirstGap + 7;
+  static constexpr Situation kCount = kGap + 8 * 9 * 3;
 
-  /// With the likelihoods that views of buildings have shown, view_situations.cpp.
-  ViewSituations();
-
-  AdaptiveBit& unchanged(std::int32_t first_due_in, std::int32_t second_due_in, bool just_fresh) {
-    const auto soon = [](std::int32_t due_in) {
-      return static_cast<std::size_t>(std::clamp(due_in + 2, 0, 7));
-    };
-    return at(kUnchanged,
-              (soon(first_due_in) * 8 + soon(second_due_in)) * 2 + (just_fresh ? 1 : 0));
+  /// Which of `count` known labels it is.
+  static Situation known(std::uint32_t count) { return kKnown + std::min(count, 8U); }
+  /// `candidates` edges to the left, the last of them the lower border of the view or not.
+  static Situation end(std::uint32_t candidates, bool last, bool goes_on, bool second_is_it) {
+    return kEnd + (candidates - 1) * 8 + (last ? 4U : 0U) + (goes_on ? 2U : 0U) +
+           (second_is_it ? 1U : 0U);
   }
-  AdaptiveBit& fresh(std::int32_t steady_columns) {
-    return at(kFresh, steady_columns < 1 ? 0 : steady_columns < 3 ? 1 : steady_columns < 8 ? 2 : 3);
+  /// `left_possible`: the class to the left is not that of the run above. `place` is 0 at the top.
+  static Situation label(std::uint32_t candidates, bool left_possible, std::uint32_t place) {
+    return kLabel + candidates + 4 * ((left_possible ? 1U : 0U) + 2 * place);
   }
-  AdaptiveBit& moves(std::int32_t period, std::int32_t age, std::int32_t step, int others_moved) {
-    const bool steep = step > 1 || step < -1 || (age == 1 && period == 1);
-    const std::size_t rhythm = roughly(age) * 8 + roughly(std::max(period, age - 1));
-    return at(kMoves, (rhythm * 3 + static_cast<std::size_t>(others_moved)) * 2 + (steep ? 1 : 0));
+  /// `gap` columns after its next move was told; `period` lay between the two moves before.
+  static Situation step(std::int32_t last_step, std::int32_t gap, std::int32_t period) {
+    const auto size = static_cast<Situation>(std::min(std::abs(last_step), 4));
+    const auto wait = static_cast<Situation>(std::min(gap, 3) - 1);
+    return kStep + (size * 3 + wait) * 2 + (period > 1 ? 1 : 0);
   }
-  AdaptiveBit& down(std::int32_t last_step, std::int32_t age) {
-    const std::size_t before = last_step < 0 ? 0 : last_step == 0 ? 1 : 2;
-    return at(kDown, before * 2 + (age <= 2 ? 1 : 0));
-  }
-  std::span<AdaptiveBit, kSizeBits> size(std::int32_t last_size) {
-    return some<kSizeBits>(kSize, static_cast<std::size_t>(std::min(3, last_size)) * kSizeBits);
-  }
-  AdaptiveBit& goes_on(bool top, bool at_edge) {
-    return at(kGoesOn, (top ? 0U : 1U) + (at_edge ? 2U : 0U));
-  }
-  std::span<AdaptiveBit, kLabelTree> label(std::uint32_t place_above) {
-    const std::uint32_t row = place_above == kTopOfColumn ? 7U : std::min(place_above, 6U);
-    return some<kLabelTree>(kLabel, row * kLabelTree);
-  }
-  AdaptiveBit& ends_there(std::size_t candidate, bool last, bool goes_on, bool same_class) {
-    return at(kEndsThere,
-              candidate * 8 + (last ? 4U : 0U) + (goes_on ? 2U : 0U) + (same_class ? 1U : 0U));
-  }
-  AdaptiveBit& steps(bool goes_on, std::size_t candidate) {
-    return at(kSteps, (goes_on ? 3U : 0U) + candidate);
-  }
-  AdaptiveBit& steps_down() { return at(kStepsDown, 0); }
-  AdaptiveBit& steps_far() { return at(kStepsFar, 0); }
-  AdaptiveBit& row(std::uint32_t node) { return at(kRow, node); }
-
-  /// Where a situation stands in the table of likelihoods; `kCount` or more if it is none of these.
-  std::size_t place_of(const AdaptiveBit& situation) const {
-    return static_cast<std::size_t>(&situation - bits_.data());
+  /// `period` and `before` lay between its last moves, 0 if it has not moved so often; the next
+  /// fresh column is `to_fresh` away.
+  static Situation gap(std::int32_t period, std::int32_t before, std::int32_t to_fresh) {
+    const int room = (to_fresh > period ? 1 : 0) + (to_fresh > 2 * period + 1 ? 1 : 0);
+    const int first = std::min<int>(std::bit_width(static_cast<unsigned>(to_fresh)), 6);
+    const Situation last =
+        kGap + ((roughly(period) - 1) * 9 + roughly(before)) * 3 + static_cast<Situation>(room);
+    return period == 0 ? kFirstGap + static_cast<Situation>(first) : last;
   }
 
  private:
-  // First places in `bits_`.
-  static constexpr std::size_t kUnchanged = 0;
-  static constexpr std::size_t kFresh = kUnchanged + 128;
-  static constexpr std::size_t kMoves = kFresh + 4;
-  static constexpr std::size_t kDown = kMoves + 384;
-  static constexpr std::size_t kSize = kDown + 6;
-  static constexpr std::size_t kGoesOn = kSize + 4 * kSizeBits;
-  static constexpr std::size_t kLabel = kGoesOn + 4;
-  static constexpr std::size_t kEndsThere = kLabel + 8 * kLabelTree;
-  static constexpr std::size_t kSteps = kEndsThere + 24;
-  static constexpr std::size_t kStepsDown = kSteps + 6;
-  static constexpr std::size_t kStepsFar = kStepsDown + 1;
-  static constexpr std::size_t kRow = kStepsFar + 1;
-  static_assert(kRow + 8 == kCount);
-
-  /// Of a number of columns, one of eight.
-  static std::size_t roughly(std::int32_t columns) {
-    constexpr std::array<std::uint8_t, 16> kRough = {
-        0, 0, 1, 2, 3, 4, 4, 5, 5, 5, 6, 6, 6, 6, 6, 6};
-    return columns < 16 ? kRough[static_cast<std::size_t>(columns)] : 7;
+  /// Of a number of columns, one of nine.
+  static Situation roughly(std::int32_t columns) {
+    constexpr std::array<std::uint8_t, 18> kRough = {
+        0, 1, 2, 3, 4, 5, 5, 6, 6, 6, 7, 7, 7, 7, 7, 7, 7, 8};
+    return kRough[static_cast<std::size_t>(std::min(columns, 17))];
   }
-  AdaptiveBit& at(std::size_t first, std::size_t place) { return bits_[first + place]; }
-  template <std::size_t Count>
-  std::span<AdaptiveBit, Count> some(std::size_t first, std::size_t place) {
-    return std::span<AdaptiveBit, Count>(bits_.data() + first + place, Count);
-  }
-
-  std::array<AdaptiveBit, kCount> bits_;
 };
+
+/// How many symbols a situation knows.
+constexpr std::uint32_t symbols_of(Situation situation) {
+  if (situation == ViewSituations::kFreshGap || situation >= ViewSituations::kFirstGap) {
+    return kGapSymbols;
+  }
+  if (situation == ViewSituations::kRow) return kRowSymbols;
+  if (situation < ViewSituations::kEnd) return kKnownLabels;
+  if (situation < ViewSituations::kLabel) return kEndElsewhere + 1;
+  if (situation < ViewSituations::kStep) return kLabelElsewhere + 1;
+  return kStepSymbols;
+}
+
+/// The share of each symbol in each situation.
+struct ShareTable {
+  /// Where each symbol's share starts, and where the last one ends.
+  std::array<std::array<std::uint16_t, kMostSymbols + 1>, ViewSituations::kCount> starts{};
+
+  constexpr Share share(Situation situation, std::uint32_t symbol) const {
+    const auto& row = starts[situation];
+    return {row[symbol], static_cast<std::uint32_t>(row[symbol + 1] - row[symbol])};
+  }
+  /// The symbol in whose share `place`, below 2^kShareBits, lies.
+  constexpr std::uint32_t symbol_at(Situation situation, std::uint32_t place) const {
+    const auto& row = starts[situation];
+    std::uint32_t symbol = 0;
+    while (row[symbol + 1] <= place) ++symbol;
+    return symbol;
+  }
+};
+
+/// What views of buildings have shown, view_situations.cpp.
+extern const ShareTable kViewShares;
 
 }  // namespace semview::detail
