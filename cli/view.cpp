@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "client/lib/remote_exact_view.hpp"
+#include "client/lib/remote_maps.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
@@ -18,6 +20,7 @@
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
 #include "semview/service/site.hpp"
+#include "server_option.hpp"
 #include "site_options.hpp"
 #include "verb.hpp"
 #include "view_summary.hpp"
@@ -27,12 +30,18 @@ namespace {
 
 struct Options {
   SiteOptions site;
+  std::string server;  ///< empty: in this process
   std::string pose;
   std::string pinhole;
   std::string affine;
   std::string labels_file, range_file, image_file, range_image_file;
   bool json = false;
 };
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
 
 Result<Pose2> read_pose(const Options& options) {
   SEMVIEW_TRY(const std::vector<double> numbers, parse_numbers("--pose", options.pose, 3));
@@ -77,35 +86,87 @@ Result<T> name_option(Result<T> result) {
   return fail(std::move(error));
 }
 
-Result<View> cast(const service::Site& site, const Options& options, const Pose2& pose) {
-  const double eye_z_m = site.eye_z_m(options.site.eye_height_m);
-  SEMVIEW_TRY(const MapAffine affine, read_affine(options));
+/// A view, and of what.
+struct Seen {
+  ViewedMap map;
   View view;
+};
+
+Result<Seen> see_here(const Options& options, const Pose2& pose) {
+  SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
+  const double eye_z_m = site->eye_z_m(options.site.eye_height_m);
+  SEMVIEW_TRY(const MapAffine affine, read_affine(options));
+  Seen seen{viewed_map(*site, pose, eye_z_m), {}};
+  View& view = seen.view;
   const auto start = std::chrono::steady_clock::now();
   if (options.pinhole.empty()) {
-    view.panorama = site.profile().camera;
+    view.panorama = site->profile().camera;
     const raycast::PanoramaRequest request{pose, eye_z_m, *view.panorama, affine};
-    SEMVIEW_TRY(raycast::Panorama panorama, name_option(site.exact_panorama(request)));
-    view.engine = site.panorama_engine(request);
+    SEMVIEW_TRY(raycast::Panorama panorama, name_option(site->exact_panorama(request)));
+    view.engine = site->panorama_engine(request);
     view.labels = std::move(panorama.labels);
     view.distances_m = std::move(panorama.ranges_m);
   } else {
     SEMVIEW_TRY(const PinholeCamera camera, read_pinhole(options.pinhole));
     SEMVIEW_TRY(raycast::PinholeView pinhole,
-                name_option(site.exact_pinhole({level_camera(pose, eye_z_m), camera})));
-    view.engine = site.pinhole_engine();
+                name_option(site->exact_pinhole({level_camera(pose, eye_z_m), camera})));
+    view.engine = site->pinhole_engine();
     view.labels = std::move(pinhole.labels);
     view.distances_m = std::move(pinhole.depths_m);
   }
-  view.cast_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return view;
+  view.cast_ms = milliseconds_since(start);
+  return seen;
 }
 
-Status write_files(const service::Site& site,
-                   const Options& options,
-                   const Pose2& pose,
-                   const View& view) {
+/// The same by a server. Camera and eye height are this command's, whatever views the server keeps.
+Result<Seen> see_there(const Options& options, const Pose2& pose) {
+  SEMVIEW_TRY(const service::SiteConfig site, site_config(options.site));
+  SEMVIEW_TRY(const client::ConnectionConfig config,
+              connection_to(options.server, "view", client::ConnectionConfig{}.timeout));
+  SEMVIEW_TRY(const MapAffine affine, read_affine(options));
+  SEMVIEW_TRY(client::Connection connection, client::Connection::open(config));
+  SEMVIEW_TRY(protocol::MapDescription map, client::get_map(connection, options.site.map));
+  Seen seen;
+  View& view = seen.view;
+  client::ExactView exact;
+  const auto start = std::chrono::steady_clock::now();
+  if (options.pinhole.empty()) {
+    view.panorama = site.profile.camera;
+    SEMVIEW_TRY(exact,
+                client::exact_panorama(connection, options.site.map, pose, site.profile, affine));
+  } else {
+    SEMVIEW_TRY(const PinholeCamera camera, read_pinhole(options.pinhole));
+    SEMVIEW_TRY(exact,
+                client::exact_pinhole(
+                    connection, options.site.map, pose, site.profile.eye_height_m, camera));
+  }
+  view.cast_ms = milliseconds_since(start);
+  view.engine = {map.engine, map.engine_version, map.engine_reason};
+  view.labels = std::move(exact.labels);
+  view.distances_m = std::move(exact.distances_m);
+  seen.map = {map.summary.id,
+              map.summary.name,
+              map.summary.fingerprint,
+              std::move(map.classes),
+              map.ground_height_m + site.profile.eye_height_m,
+              {}};
+  return seen;
+}
+
+/// With a server its own choices are left to it.
+Status check_server_options(const CLI::App& verb) {
+  for (const char* option : {"--engine", "--threads", "--nearest-colour"}) {
+    if (verb.get_option(option)->count() == 0) continue;
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              fmt::format("{}: is the server's own choice; leave it out with --server", option),
+              option});
+  }
+  return {};
+}
+
+Status write_files(const Options& options, const Pose2& pose, const Seen& seen) {
+  const View& view = seen.view;
   if (!options.labels_file.empty()) {
     SEMVIEW_TRY_STATUS(io::write_png(options.labels_file, view.labels));
   }
@@ -114,10 +175,10 @@ Status write_files(const service::Site& site,
   }
   picture::ViewPictureOptions picture;
   picture.title = fmt::format(
-      "{}: ({:g}, {:g}) m, {:g}°", site.map().name, pose.x_m, pose.y_m, deg_from_rad(pose.yaw_rad));
+      "{}: ({:g}, {:g}) m, {:g}°", seen.map.name, pose.x_m, pose.y_m, deg_from_rad(pose.yaw_rad));
   picture.axes = view.panorama;
   if (!options.image_file.empty()) {
-    const ClassTable& classes = site.map().classes;
+    const ClassTable& classes = seen.map.classes;
     SEMVIEW_TRY_STATUS(io::write_png(
         options.image_file,
         draw_labels(view.labels, classes, picture::ClassPalette::for_classes(classes), picture)));
@@ -130,7 +191,8 @@ Status write_files(const service::Site& site,
   return {};
 }
 
-Status show(const Options& options) {
+Status show(const CLI::App& verb, const Options& options) {
+  if (!options.server.empty()) SEMVIEW_TRY_STATUS(check_server_options(verb));
   SEMVIEW_TRY(const Pose2 pose, read_pose(options));
   for (const std::string* file : {&options.labels_file,
                                   &options.range_file,
@@ -138,11 +200,10 @@ Status show(const Options& options) {
                                   &options.range_image_file}) {
     if (!file->empty()) SEMVIEW_TRY_STATUS(io::check_output_png(*file));
   }
-  SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(options.site));
-  SEMVIEW_TRY(const View view, cast(*site, options, pose));
-  SEMVIEW_TRY_STATUS(write_files(*site, options, pose, view));
-  const nlohmann::ordered_json result =
-      view_summary(*site, pose, site->eye_z_m(options.site.eye_height_m), view);
+  SEMVIEW_TRY(const Seen seen,
+              options.server.empty() ? see_here(options, pose) : see_there(options, pose));
+  SEMVIEW_TRY_STATUS(write_files(options, pose, seen));
+  const nlohmann::ordered_json result = view_summary(seen.map, pose, seen.view);
   if (result.contains("warning")) {
     fmt::print(stderr, "semview: warning: {}\n", result["warning"].get<std::string>());
   }
@@ -167,6 +228,7 @@ void add_view_verb(CLI::App& app, int& exit_code) {
   for (const char* option : {"--cache", "--cache-limit"}) {
     verb->remove_option(verb->get_option(option));
   }
+  add_server_option(*verb, options->server, "cast");
   verb->add_option("--pose", options->pose, "X,Y,YAW_DEG in metres and degrees in frame map")
       ->required();
   verb->add_option("--pinhole",
@@ -191,7 +253,7 @@ void add_view_verb(CLI::App& app, int& exit_code) {
       "Example: semview view maps/duplex_level1 --pose 2,-3,90 --image view.png --range mm.png\n"
       "         semview view maps/tutorial --pose 1,1,0 --pinhole 300,300,320,240,640,480 "
       "--image photo.png");
-  verb->callback([options, &exit_code] { exit_code = report(show(*options)); });
+  verb->callback([verb, options, &exit_code] { exit_code = report(show(*verb, *options)); });
 }
 
 }  // namespace semview::cli

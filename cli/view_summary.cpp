@@ -66,26 +66,27 @@ ordered_json camera_json(const View& view) {
 
 }  // namespace
 
-ordered_json view_summary(const service::Site& site,
-                          const Pose2& pose,
-                          double eye_z_m,
-                          const View& view) {
+ViewedMap viewed_map(const service::Site& site, const Pose2& pose, double eye_z_m) {
+  const map::SemanticMap& map = site.map();
+  return {
+      site.id(), map.name, map.fingerprint, map.classes, eye_z_m, eye_trouble(site, pose, eye_z_m)};
+}
+
+ordered_json view_summary(const ViewedMap& map, const Pose2& pose, const View& view) {
   ordered_json result{
-      {"map", site.id()},
-      {"fingerprint", to_hex(site.map().fingerprint)},
+      {"map", map.id},
+      {"fingerprint", to_hex(map.fingerprint)},
       {"engine", view.engine.name},
       {"engine_reason", view.engine.reason},
       {"pose", {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"yaw_deg", deg_from_rad(pose.yaw_rad)}}},
-      {"eye_z_m", eye_z_m},
+      {"eye_z_m", map.eye_z_m},
       {"camera", camera_json(view)},
       {"cast_ms", view.cast_ms}};
   const float nearest_m = *std::ranges::min_element(view.distances_m.pixels());
   const char* const nearest = view.panorama ? "nearest_range_m" : "nearest_depth_m";
   result[nearest] = std::isfinite(nearest_m) ? ordered_json(nearest_m) : ordered_json(nullptr);
-  result["classes"] = class_shares(view, site.map().classes);
-  if (const std::string trouble = eye_trouble(site, pose, eye_z_m); !trouble.empty()) {
-    result["warning"] = trouble;
-  }
+  result["classes"] = class_shares(view, map.classes);
+  if (!map.eye_trouble.empty()) result["warning"] = map.eye_trouble;
   return result;
 }
 

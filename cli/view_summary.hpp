@@ -3,12 +3,15 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "semview/core/hash.hpp"
 #include "semview/geometry/image.hpp"
 #include "semview/geometry/panorama_camera.hpp"
 #include "semview/geometry/pose2.hpp"
+#include "semview/semantics/class_table.hpp"
 #include "semview/service/site.hpp"
 
 namespace semview::cli {
@@ -22,11 +25,21 @@ struct View {
   double cast_ms = 0.0;
 };
 
+/// What was looked at.
+struct ViewedMap {
+  std::string id, name;
+  Fingerprint fingerprint;
+  ClassTable classes;
+  double eye_z_m = 0.0;
+  std::string eye_trouble;  ///< why the eye does not see the map as a robot would; empty: it does
+};
+
+/// In this process.
+/// @param pose  The eye's place.
+ViewedMap viewed_map(const service::Site& site, const Pose2& pose, double eye_z_m);
+
 /// As `--json` prints it. `warning` is there if the eye does not see the map as a robot would.
-nlohmann::ordered_json view_summary(const service::Site& site,
-                                    const Pose2& pose,
-                                    double eye_z_m,
-                                    const View& view);
+nlohmann::ordered_json view_summary(const ViewedMap& map, const Pose2& pose, const View& view);
 
 /// The same on standard output, for people.
 void print_view_summary(const nlohmann::ordered_json& summary);

@@ -13,6 +13,7 @@
 #include "semview/raycast/pinhole_renderer.hpp"
 #include "support/engine_wish.hpp"
 #include "support/run_program.hpp"
+#include "support/running_server.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace semview {
@@ -124,6 +125,29 @@ TEST_F(ViewVerbTest, WarnsOfAnEyeThatIsOutsideOrInAWall) {
   EXPECT_EQ(view(SEMVIEW_SOURCE_DIR "/maps/tutorial --pose 0.15,0.15,0 --json"), 0);
   EXPECT_THAT(err(), ::testing::HasSubstr("the eye is inside a wall"));
   EXPECT_THAT(out(), ::testing::HasSubstr("\"engine\": \"embree\""));
+}
+
+TEST_F(ViewVerbTest, AServerCastsTheBytesThatThisProcessDoes) {
+  const testing::RunningServer server({"--map", kMap, "--bind", "tcp://127.0.0.1:*"},
+                                      folder_ / "server");
+  const std::string there = "duplex_level1 --server " + server.endpoint();
+  for (const std::string camera : {"--columns 240 --rows 50 --elevation -30,40 --eye-height 1.1",
+                                   "--affine 1.1,0.9,0.1",
+                                   "--pinhole 100,110,60,40,121,83"}) {
+    const auto files = [this](const std::string& name) {
+      return " --labels " + file(name + "_ids.png") + " --range " + file(name + "_mm.png") +
+             " --image " + file(name + ".png") + " --range-image " + file(name + "_range.png");
+    };
+    const std::string pose = " --pose 2.35,-3.05,90 " + camera;
+    ASSERT_EQ(view(kMap + pose + files("here")), 0) << err();
+    ASSERT_EQ(view(there + pose + files("there")), 0) << err();
+    for (const std::string end : {"_ids.png", "_mm.png", ".png", "_range.png"}) {
+      EXPECT_EQ(testing::file_bytes(file("here" + end)), testing::file_bytes(file("there" + end)))
+          << camera << end;
+    }
+  }
+  EXPECT_EQ(view(there + " --pose 2.35,-3.05,90 --engine embree"), 2);
+  EXPECT_THAT(err(), ::testing::HasSubstr("--engine: is the server's own choice"));
 }
 
 }  // namespace
