@@ -17,6 +17,7 @@
 
 #include "client/robot/run_log_player.hpp"
 #include "client/robot/run_outputs.hpp"
+#include "duration_text.hpp"
 #include "localize_options.hpp"
 #include "localize_scorer.hpp"
 #include "localize_start.hpp"
@@ -66,6 +67,33 @@ class Progress {
 
  private:
   bool stale_ = false;
+};
+
+/// Tells a person how far the search of a dense start is: its views may all have to be cast.
+class SearchLine {
+ public:
+  /// False once somebody asks to stop.
+  bool show(std::size_t done, std::size_t cells) {
+    using Seconds = std::chrono::duration<double>;
+    const auto now = std::chrono::steady_clock::now();
+    const double elapsed_s = Seconds(now - start_).count();
+    const double left_s = elapsed_s * static_cast<double>(cells - done) / static_cast<double>(done);
+    const std::string text =
+        fmt::format("searching: {} of {} cells, {} left", done, cells, duration_text(left_s));
+    if (Progress::on_terminal()) {
+      fmt::print(stderr, "\r\x1b[K{}", text);
+      std::fflush(stderr);
+    } else if (done < cells && now - told_ >= kBetweenLines) {
+      log_info(text);
+      told_ = now;
+    }
+    return !stop_asked();
+  }
+
+ private:
+  static constexpr std::chrono::seconds kBetweenLines{5};
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point told_ = start_;
 };
 
 /// Holds a log back to `rate` times its recorded speed.
@@ -186,7 +214,7 @@ void print_summary(const LocalizeOptions& options,
   if (start) print_dense_start(*start);
   fmt::print(
       "{}: {} frames, {} scored, {} stale{}{}{}; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} "
-      "m); "
+      "m around it, {:.0f} % of the belief); "
       "cells: {} memory, {} disk, {} cast; weights: {}\n",
       options.output,
       drive.frames.size(),
@@ -201,6 +229,7 @@ void print_summary(const LocalizeOptions& options,
       pose.y_m,
       deg_from_rad(pose.yaw_rad),
       sigma_m,
+      100.0 * last.estimate.weight,
       origins.memory,
       origins.disk,
       origins.cast,
@@ -221,7 +250,12 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
     log_info(fmt::format("localizing {} frames; weights: {}", log.frames.size(), scorer.weights));
   }
   robot::Localizer localizer(config, *scorer.source, motion, std::move(start), options.seed);
-  if (is_dense(options)) localizer.search(scorer.free_cells);
+  SearchLine search;
+  if (is_dense(options)) {
+    localizer.search(scorer.free_cells, [&search](std::size_t done, std::size_t cells) {
+      return search.show(done, cells);
+    });
+  }
   Progress progress;
   robot::Drive so_far;
   robot::PlayerHooks hooks;

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "duration_text.hpp"
 #include "semview/cache/lmdb_store.hpp"
 #include "semview/service/site.hpp"
 #include "site_options.hpp"
@@ -28,13 +29,6 @@ struct Options {
   bool dry_run = false;
   bool json = false;
 };
-
-std::string duration(double seconds) {
-  const auto whole = static_cast<long long>(seconds + 0.5);
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-}
 
 std::string bytes_text(std::uint64_t bytes) {
   const auto value = static_cast<double>(bytes);
@@ -81,7 +75,7 @@ class ProgressLine {
                done,
                progress.cells,
                progress.views_per_s,
-               duration(progress.remaining_s));
+               duration_text(progress.remaining_s));
     std::fflush(stdout);
   }
   void finish() const {
@@ -129,7 +123,7 @@ Status dry_run(const service::Site& site, const service::PrecomputePlan& plan, b
              estimate.found);
   fmt::print("estimate for the rest, from {} views cast now: {} on {} threads, {} on disk\n",
              estimate.sampled,
-             duration(estimate.seconds),
+             duration_text(estimate.seconds),
              site.pool().threads(),
              bytes_text(estimate.bytes));
   return {};

@@ -128,8 +128,11 @@ Result<FrameReport> Localizer::weigh(const Observation& observation) {
 Result<FrameReport> Localizer::search_cells(const Observation& observation) {
   SEMVIEW_TRY_STATUS(source_.set_observation(observation));
   SEMVIEW_TRY(const DensePosterior posterior,
-              DensePosterior::compute(
-                  source_, config_.weighting, cells_to_search_, observation.base_from_eye));
+              DensePosterior::compute(source_,
+                                      config_.weighting,
+                                      cells_to_search_,
+                                      observation.base_from_eye,
+                                      search_progress_));
   FrameReport report;
   report.scores = posterior.scores();
   if (!posterior.informative()) {

@@ -87,7 +87,11 @@ class Localizer {
   /// Lets the first observation that can be scored be compared with all headings of `cells` (not
   /// empty) and the particles be drawn anew from what it says, whatever they are until then. As
   /// many are drawn as there are.
-  void search(std::vector<CellIndex> cells) { cells_to_search_ = std::move(cells); }
+  /// @param progress  As of `observation::DensePosterior::compute`.
+  void search(std::vector<CellIndex> cells, observation::SearchProgress progress = {}) {
+    cells_to_search_ = std::move(cells);
+    search_progress_ = std::move(progress);
+  }
 
   /// What the search found, once it is done.
   const std::optional<DenseStart>& dense_start() const { return dense_start_; }
@@ -110,6 +114,7 @@ class Localizer {
   localization::ParticleFilter filter_;
   std::uint64_t seed_;
   std::vector<CellIndex> cells_to_search_;  ///< empty: no search, or done
+  observation::SearchProgress search_progress_;
   std::optional<DenseStart> dense_start_;
   std::optional<Pose2> odom_from_last_frame_;
   std::optional<Pose2> map_from_last_estimate_;  ///< carried on by odometry

@@ -147,6 +147,24 @@ TEST(DensePosteriorTest, WhereNothingIsPossibleThereAreNoCellProbabilities) {
   EXPECT_EQ(cell_probabilities(log_weights).error().code, ErrorCode::kFailedPrecondition);
 }
 
+TEST(DensePosteriorTest, ProgressIsToldAndEndsIt) {
+  HillySource source = two_hills();
+  std::vector<CellIndex> cells;
+  for (int i = 0; i < 3000; ++i) cells.push_back({i % 60, i / 60});
+  std::vector<std::size_t> told;
+  const auto tell = [&](std::size_t done, std::size_t all) {
+    EXPECT_EQ(all, 3000U);
+    told.push_back(done);
+    return told.size() < 5;
+  };
+  ASSERT_TRUE(DensePosterior::compute(source, {}, cells, {}, tell));
+  EXPECT_EQ(told, (std::vector<std::size_t>{1024, 2048, 3000}));
+  const auto stopped = DensePosterior::compute(source, {}, cells, {}, tell);
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(told.size(), 5U);
+}
+
 TEST(DensePosteriorTest, TwoPlacesThatLookAlikeAreTwoModesOfHalfTheBelief) {
   HillySource source = two_hills();
   const auto modes = posterior_of(source).modes(5);

@@ -53,7 +53,8 @@ struct Reach {
 Result<DensePosterior> DensePosterior::compute(ScoreSource& source,
                                                const SimilarityWeightingConfig& config,
                                                std::vector<CellIndex> cells,
-                                               const Pose2& base_from_eye) {
+                                               const Pose2& base_from_eye,
+                                               const SearchProgress& progress) {
   std::ranges::sort(cells);
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   if (cells.empty()) return fail(ErrorCode::kInvalidArgument, "dense posterior: no cells");
@@ -79,6 +80,9 @@ Result<DensePosterior> DensePosterior::compute(ScoreSource& source,
     }
     SEMVIEW_TRY(const ScoreBatch batch, source.score(request));
     SEMVIEW_TRY_STATUS(posterior.take(batch, end - first));
+    if (progress && !progress(end, posterior.cells_.size())) {
+      return fail(ErrorCode::kCancelled, "dense posterior: cancelled");
+    }
   }
   posterior.weigh();
   return posterior;

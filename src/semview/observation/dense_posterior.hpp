@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace semview::observation {
 
 /// Above this a posterior is refused: its sums take 480 bytes a cell.
 inline constexpr std::size_t kMaxPosteriorCells = 1'000'000;
+
+/// (cells done, cells); false: stop.
+using SearchProgress = std::function<bool(std::size_t, std::size_t)>;
 
 /// One of the places that an observation may have been made at.
 struct PosteriorMode {
@@ -41,12 +45,16 @@ class DensePosterior {
  public:
   /// Of the observation that `source` was given.
   /// @param cells  Where the eye may be; may repeat.
-  /// @errors kInvalidArgument: no cells; kResourceExhausted: above `kMaxPosteriorCells`; those of
-  /// `ScoreSource::score`; kInternal: an answer of another size than the question.
+  /// @param progress  Called after each answer with (cells done, cells); may be empty. Returning
+  ///        false ends the work with kCancelled.
+  /// @errors kCancelled; kInvalidArgument: no cells; kResourceExhausted: above
+  /// `kMaxPosteriorCells`; those of `ScoreSource::score`; kInternal: an answer of another size than
+  /// the question.
   static Result<DensePosterior> compute(ScoreSource& source,
                                         const SimilarityWeightingConfig& config,
                                         std::vector<CellIndex> cells,
-                                        const Pose2& base_from_eye);
+                                        const Pose2& base_from_eye,
+                                        const SearchProgress& progress = {});
 
   /// False if no hypothesis is possible: then there are neither probabilities nor particles.
   bool informative() const { return total_ > 0.0; }
