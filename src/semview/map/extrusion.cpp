@@ -5,15 +5,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "semview/map/column_map.hpp"
+#include "semview/map/mesh_builder.hpp"
 
 namespace semview::map {
 namespace {
@@ -37,6 +37,9 @@ struct Level {
     return std::tie(z_m, faces_up, label) < std::tie(other.z_m, other.faces_up, other.label);
   }
 };
+
+/// The profile of what is not part of the building.
+constexpr std::uint8_t kOutside = 0;
 
 /// What cuts every column.
 struct Cuts {
@@ -106,73 +109,40 @@ std::vector<Solid> exposed(std::span<const Solid> solids, std::span<const Solid>
   return parts;
 }
 
-/// A corner of pixels: column edge `i` (0 = left edge), row edge `j` (0 = top edge).
-struct Corner {
-  int i = 0;
-  int j = 0;
-  float z_m = 0.0F;
-};
-
-class MeshBuilder {
- public:
-  explicit MeshBuilder(const ColumnMap& map) : map_(map) {}
-
-  /// Corners counter-clockwise as seen from free space, the other way round if `turned`.
-  void add_quad(const std::array<Corner, 4>& corners, bool turned, ClassId label) {
-    std::array<std::uint32_t, 4> v{};
-    for (std::size_t k = 0; k < 4; ++k) v[k] = vertex(corners[turned ? 3 - k : k]);
-    mesh_.triangles.push_back({v[0], v[1], v[2]});
-    mesh_.triangles.push_back({v[0], v[2], v[3]});
-    mesh_.labels.insert(mesh_.labels.end(), 2, label);
-  }
-
-  TriangleMesh take() { return std::move(mesh_); }
-
- private:
-  std::uint32_t vertex(const Corner& corner) {
-    const auto level = static_cast<std::uint64_t>(
-        level_of_.try_emplace(corner.z_m, level_of_.size()).first->second);
-    const std::uint64_t key = (level << 48U) | (static_cast<std::uint64_t>(corner.j) << 24U) |
-                              static_cast<std::uint64_t>(corner.i);
-    const auto next = static_cast<std::uint32_t>(mesh_.vertices.size());
-    const auto [place, is_new] = vertex_of_.try_emplace(key, next);
-    if (is_new) {
-      const Eigen::Vector2d point = map_.map_from_plan(
-          corner.i * map_.resolution_m, (map_.rows() - corner.j) * map_.resolution_m);
-      mesh_.vertices.emplace_back(
-          static_cast<float>(point.x()), static_cast<float>(point.y()), corner.z_m);
-    }
-    return place->second;
-  }
-
-  const ColumnMap& map_;
-  std::map<float, std::size_t> level_of_;
-  std::unordered_map<std::uint64_t, std::uint32_t> vertex_of_;
-  TriangleMesh mesh_;
-};
-
 /// Covers the ones of `pending` with rectangles, largest first to the right, then downwards, and
 /// clears them.
 template <typename Emit>
 void cover_with_rectangles(Image<std::uint8_t>& pending, const Emit& emit) {
   for (int top = 0; top < pending.rows(); ++top) {
-    for (int left = 0; left < pending.columns(); ++left) {
-      if (pending.at(top, left) == 0) continue;
-      int right = left;
-      while (right < pending.columns() && pending.at(top, right) != 0) ++right;
-      const auto whole_row_pending = [&](int row) {
-        const auto part = pending.row(row).subspan(static_cast<std::size_t>(left),
-                                                   static_cast<std::size_t>(right - left));
+    const auto row = pending.row(top);
+    for (auto one = std::ranges::find(row, 1); one != row.end();
+         one = std::find(one, row.end(), 1)) {
+      const auto left = static_cast<int>(one - row.begin());
+      const auto right = static_cast<int>(std::find(one, row.end(), 0) - row.begin());
+      const auto whole_row_pending = [&](int below) {
+        const auto part = pending.row(below).subspan(static_cast<std::size_t>(left),
+                                                     static_cast<std::size_t>(right - left));
         return std::all_of(part.begin(), part.end(), [](std::uint8_t p) { return p != 0; });
       };
       int bottom = top + 1;
       while (bottom < pending.rows() && whole_row_pending(bottom)) ++bottom;
-      for (int row = top; row < bottom; ++row) {
-        for (int column = left; column < right; ++column) pending.at(row, column) = 0;
+      for (int covered = top; covered < bottom; ++covered) {
+        const auto pixels = pending.row(covered);
+        std::fill(pixels.begin() + left, pixels.begin() + right, std::uint8_t{0});
       }
       emit(top, bottom, left, right);
     }
   }
+}
+
+Image<std::uint8_t> transposed(const Image<std::uint8_t>& image) {
+  Image<std::uint8_t> turned(image.columns(), image.rows());
+  for (int row = 0; row < image.rows(); ++row) {
+    for (int column = 0; column < image.columns(); ++column) {
+      turned.at(column, row) = image.at(row, column);
+    }
+  }
+  return turned;
 }
 
 class Extruder {
@@ -188,32 +158,27 @@ class Extruder {
         has_level[p] = 1;
       }
     }
-    solids_.emplace_back();  // beyond the image's border: nothing
+    faces_of_pair_.resize(solids_.size() * solids_.size());
   }
 
   TriangleMesh extrude() {
     if (map_.profile_of_pixel.empty()) return {};
     for (const auto& [level, has_level] : profiles_of_level_) add_level(level, has_level);
-    const int rows = map_.rows();
-    const int columns = map_.columns();
-    for (int i = 0; i <= columns; ++i) {
-      add_line(
-          rows,
-          [&](int row) { return std::pair(profile(row, i - 1), profile(row, i)); },
-          [&](int from, int to, const Solid& face, bool toward_second) {
-            builder_.add_quad({Corner{i, to, face.low_m},
-                               Corner{i, from, face.low_m},
-                               Corner{i, from, face.high_m},
-                               Corner{i, to, face.high_m}},
-                              !toward_second,
-                              face.label);
-          });
+    // Columns as rows of their own: both kinds of lines then read memory in its order.
+    const Image<std::uint8_t> turned = transposed(map_.profile_of_pixel);
+    for (int i = 0; i <= turned.rows(); ++i) {
+      add_line(turned, i, [&](int from, int to, const Solid& face, bool toward_second) {
+        builder_.add_quad({Corner{i, to, face.low_m},
+                           Corner{i, from, face.low_m},
+                           Corner{i, from, face.high_m},
+                           Corner{i, to, face.high_m}},
+                          !toward_second,
+                          face.label);
+      });
     }
-    for (int j = 0; j <= rows; ++j) {
+    for (int j = 0; j <= map_.rows(); ++j) {
       add_line(
-          columns,
-          [&](int column) { return std::pair(profile(j - 1, column), profile(j, column)); },
-          [&](int from, int to, const Solid& face, bool toward_second) {
+          map_.profile_of_pixel, j, [&](int from, int to, const Solid& face, bool toward_second) {
             builder_.add_quad({Corner{from, j, face.low_m},
                                Corner{to, j, face.low_m},
                                Corner{to, j, face.high_m},
@@ -226,12 +191,6 @@ class Extruder {
   }
 
  private:
-  std::size_t profile(int row, int column) const {
-    const auto& image = map_.profile_of_pixel;
-    const bool inside = row >= 0 && row < image.rows() && column >= 0 && column < image.columns();
-    return inside ? image.at(row, column) : map_.profiles.size();
-  }
-
   void add_level(const Level& level, const std::vector<std::uint8_t>& has_level) {
     Image<std::uint8_t> pending(map_.rows(), map_.columns());
     std::transform(map_.profile_of_pixel.pixels().begin(),
@@ -248,48 +207,59 @@ class Extruder {
     });
   }
 
-  /// The upright faces between the pixels on both sides of a line, runs of equal ones merged.
-  /// `pair_at(k)` gives the profiles on the first (left, upper) and second side.
-  template <typename PairAt, typename Emit>
-  void add_line(int length, const PairAt& pair_at, const Emit& emit) {
+  /// The upright faces along the line above row `j`, between the pixels on both sides of it, runs
+  /// of equal ones merged. Beyond the image there is nothing.
+  template <typename Emit>
+  void add_line(const Image<std::uint8_t>& profiles, int j, const Emit& emit) {
+    const std::vector<std::uint8_t> beyond(static_cast<std::size_t>(profiles.columns()), kOutside);
+    const std::span<const std::uint8_t> first = j > 0 ? profiles.row(j - 1) : beyond;
+    const std::span<const std::uint8_t> second = j < profiles.rows() ? profiles.row(j) : beyond;
+    if (std::ranges::equal(first, second)) return;
     for (const bool toward_second : {true, false}) {
-      const std::vector<Solid> none;
-      const std::vector<Solid>* current = &none;
-      std::vector<std::pair<Solid, int>> open;  // face and where it began
-      for (int k = 0; k <= length; ++k) {
-        const std::vector<Solid>* faces = &none;
-        if (k < length) {
-          const auto [first, second] = pair_at(k);
-          faces = toward_second ? &faces_of(first, second) : &faces_of(second, first);
-        }
-        if (faces == current) continue;
-        const auto ends = [&](const std::pair<Solid, int>& run) {
-          return std::find(faces->begin(), faces->end(), run.first) == faces->end();
-        };
-        for (const auto& run : open) {
-          if (ends(run)) emit(run.second, k, run.first, toward_second);
-        }
-        std::erase_if(open, ends);
-        for (const Solid& face : *faces) {
-          const auto is_open = [&](const auto& run) { return run.first == face; };
-          if (std::none_of(open.begin(), open.end(), is_open)) open.emplace_back(face, k);
-        }
-        current = faces;
+      add_faces(toward_second ? first : second,
+                toward_second ? second : first,
+                [&](int from, int to, const Solid& face) { emit(from, to, face, toward_second); });
+    }
+  }
+
+  /// Those of the solids on one side of a line that are seen from the other.
+  template <typename Emit>
+  void add_faces(std::span<const std::uint8_t> solid,
+                 std::span<const std::uint8_t> toward,
+                 const Emit& emit) {
+    const std::vector<Solid> none;
+    const std::vector<Solid>* current = &none;
+    std::vector<std::pair<Solid, int>> open;  // face and where it began
+    for (std::size_t k = 0; k <= solid.size(); ++k) {
+      const std::vector<Solid>& faces = k < solid.size() ? faces_of(solid[k], toward[k]) : none;
+      if (&faces == current) continue;
+      const auto at = static_cast<int>(k);
+      const auto ends = [&](const std::pair<Solid, int>& run) {
+        return std::find(faces.begin(), faces.end(), run.first) == faces.end();
+      };
+      for (const auto& run : open) {
+        if (ends(run)) emit(run.second, at, run.first);
       }
+      std::erase_if(open, ends);
+      for (const Solid& face : faces) {
+        const auto is_open = [&](const auto& run) { return run.first == face; };
+        if (std::none_of(open.begin(), open.end(), is_open)) open.emplace_back(face, at);
+      }
+      current = &faces;
     }
   }
 
   const std::vector<Solid>& faces_of(std::size_t solid, std::size_t toward) {
-    const auto [place, is_new] = faces_of_pair_.try_emplace(solid * solids_.size() + toward);
-    if (is_new) place->second = exposed(solids_[solid], solids_[toward]);
-    return place->second;
+    std::optional<std::vector<Solid>>& faces = faces_of_pair_[solid * solids_.size() + toward];
+    if (!faces) faces = exposed(solids_[solid], solids_[toward]);
+    return *faces;
   }
 
   const ColumnMap& map_;
   MeshBuilder builder_;
-  std::vector<std::vector<Solid>> solids_;  // of each profile; the last: beyond the border
+  std::vector<std::vector<Solid>> solids_;  // of each profile
   std::map<Level, std::vector<std::uint8_t>> profiles_of_level_;
-  std::unordered_map<std::size_t, std::vector<Solid>> faces_of_pair_;
+  std::vector<std::optional<std::vector<Solid>>> faces_of_pair_;  // a row for each that is solid
 };
 
 }  // namespace
