@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import semview
-from semview import client
+from semview import views
 from semview.v1 import views_pb2
 
 SOURCE = Path(os.environ["SEMVIEW_SOURCE_DIR"])
@@ -116,7 +116,7 @@ class ClientTest(unittest.TestCase):
             request.encoding = encoding
             reply = self.server.connection.call("GetViews", request, views_pb2.GetViewsReply)
             self.assertEqual(reply.views[0].runs.packed, b"")
-            labels = client._view(reply.views[0], reply.rows, reply.columns).labels
+            labels = views.view_of(reply.views[0], reply.rows, reply.columns).labels
             np.testing.assert_array_equal(labels, view.labels)
 
     def test_planes_become_ranges(self):
@@ -125,7 +125,7 @@ class ClientTest(unittest.TestCase):
         wire.runs.end_rows.extend([1, 3, 3])
         wire.runs.labels = bytes([2, 1, 0])
         wire.runs.planes = np.array([0.5, 0, 0, -0.8, 0, 0], "<f4").tobytes()
-        view = client._view(wire, 3, 2, (-0.6, 0.6))
+        view = views.view_of(wire, 3, 2, (-0.6, 0.6))
         np.testing.assert_array_equal(view.labels, [[2, 0], [1, 0], [1, 0]])
         expected = [2.0 / np.cos(0.4), np.inf, 1.25 / np.sin(0.4)]
         np.testing.assert_allclose(view.ranges_m[:, 0], expected, rtol=1e-6)
