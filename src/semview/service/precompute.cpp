@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <string>
 
@@ -19,9 +20,13 @@
 namespace semview::service {
 namespace {
 
-// One transaction and one progress line a chunk: small enough that `stop` is obeyed soon.
+// Between two chunks `stop` is obeyed.
 constexpr std::size_t kMaxChunkCells = 256;
 constexpr std::size_t kChunkPixels = kMaxChunkCells * 360 * 90;
+// One transaction and one progress line for chunks of so long or so many cells: a commit waits for
+// the disk, which with a fast engine would take as long as casting a chunk.
+constexpr double kCommitAfter_s = 0.1;
+constexpr std::size_t kMaxCommitCells = 2048;
 constexpr std::size_t kSampleCells = 48;
 
 double seconds_between(TimePoint from, TimePoint to) {
@@ -141,21 +146,35 @@ Result<PrecomputeResult> run_precompute(
 
   const TimePoint start = clock.now();
   const std::size_t chunk = chunk_cells(site);
-  for (std::size_t begin = 0; begin < missing.size(); begin += chunk) {
-    if (stop.stop_requested()) {
-      result.end = PrecomputeEnd::kStopped;
-      return result;
-    }
-    const auto cells = std::span(missing).subspan(begin, std::min(chunk, missing.size() - begin));
-    SEMVIEW_TRY(const std::vector<cache::EncodedView> encoded, cast(site, keyspace, cells));
-    SEMVIEW_TRY_STATUS(store->put_encoded(site.keyspace(), encoded));
-    for (const cache::EncodedView& view : encoded) now.bytes += view.record.size();
-    now.cast += cells.size();
-    now.elapsed_s = seconds_between(start, clock.now());
+  std::vector<cache::EncodedView> waiting;
+  TimePoint committed = start;
+  const auto commit = [&]() -> Status {
+    SEMVIEW_TRY_STATUS(store->put_encoded(site.keyspace(), waiting));
+    for (const cache::EncodedView& view : waiting) now.bytes += view.record.size();
+    now.cast += waiting.size();
+    waiting.clear();
+    committed = clock.now();
+    now.elapsed_s = seconds_between(start, committed);
     if (now.elapsed_s > 0.0) now.views_per_s = static_cast<double>(now.cast) / now.elapsed_s;
     now.remaining_s = now.elapsed_s * static_cast<double>(missing.size() - now.cast) /
                       static_cast<double>(now.cast);
     if (progress) progress(now);
+    return {};
+  };
+  for (std::size_t begin = 0; begin < missing.size(); begin += chunk) {
+    if (stop.stop_requested()) {
+      if (!waiting.empty()) SEMVIEW_TRY_STATUS(commit());
+      result.end = PrecomputeEnd::kStopped;
+      return result;
+    }
+    const auto cells = std::span(missing).subspan(begin, std::min(chunk, missing.size() - begin));
+    SEMVIEW_TRY(std::vector<cache::EncodedView> encoded, cast(site, keyspace, cells));
+    std::move(encoded.begin(), encoded.end(), std::back_inserter(waiting));
+    // The first at once: whoever watches sees that it runs.
+    if (begin == 0 || begin + chunk >= missing.size() || waiting.size() >= kMaxCommitCells ||
+        seconds_between(committed, clock.now()) >= kCommitAfter_s) {
+      SEMVIEW_TRY_STATUS(commit());
+    }
   }
   return result;
 }

@@ -53,7 +53,7 @@ struct PrecomputeResult {
 
 /// Casts and stores what the cache directory does not hold yet, row by row. The records are the
 /// same for any thread count and any number of interruptions; `stop` is obeyed within a second.
-/// `progress` (may be empty) is called after every chunk, in the calling thread.
+/// `progress` (may be empty) is called after every commit, in the calling thread.
 /// @errors kFailedPrecondition: no cache directory; kResourceExhausted: storing has stopped (full
 /// disk, `--cache-limit`).
 Result<PrecomputeResult> run_precompute(
