@@ -20,9 +20,10 @@
 namespace semview::service {
 namespace {
 
-// Between two chunks `stop` is obeyed.
-constexpr std::size_t kMaxChunkCells = 256;
-constexpr std::size_t kChunkPixels = kMaxChunkCells * 360 * 90;
+// Between two chunks `stop` is obeyed. What a thread casts is still in its processor's cache when
+// it is coded.
+constexpr std::size_t kChunkCellsAThread = 32;
+constexpr std::size_t kChunkPixels = 256 * 360 * 90;
 // One transaction and one progress line for chunks of so long or so many cells: a commit waits for
 // the disk, which with a fast engine would take as long as casting a chunk.
 constexpr double kCommitAfter_s = 0.1;
@@ -66,7 +67,8 @@ std::size_t chunk_cells(const Site& site) {
   const PanoramaCamera& camera = site.profile().camera;
   const std::size_t pixels =
       static_cast<std::size_t>(camera.columns) * static_cast<std::size_t>(camera.rows);
-  return std::clamp(kChunkPixels / pixels, site.pool().threads(), kMaxChunkCells);
+  const std::size_t threads = site.pool().threads();
+  return std::clamp(kChunkPixels / pixels, threads, threads * kChunkCellsAThread);
 }
 
 Result<cache::LmdbStore*> store_of(const Site& site) {
