@@ -166,15 +166,15 @@ Status LmdbStore::write(const Keyspace& keyspace, std::span<const EncodedView> v
   for (const EncodedView& view : views) {
     const RecordKey key = record_key({name, view.cell});
     MDB_val key_value = detail::value_of(key);
-    MDB_val there{};
-    // Another process may have stored the same bytes meanwhile.
-    if (mdb_get(transaction.get(), environment.records(), &key_value, &there) == 0 &&
-        std::ranges::equal(detail::bytes_of(there), view.record)) {
-      continue;
-    }
     MDB_val value = detail::value_of(view.record);
-    if (const int code = mdb_put(transaction.get(), environment.records(), &key_value, &value, 0);
-        code != 0) {
+    int code =
+        mdb_put(transaction.get(), environment.records(), &key_value, &value, MDB_NOOVERWRITE);
+    // Another process may have stored the same bytes meanwhile; `value` is what is there then.
+    if (code == MDB_KEYEXIST && !std::ranges::equal(detail::bytes_of(value), view.record)) {
+      value = detail::value_of(view.record);
+      code = mdb_put(transaction.get(), environment.records(), &key_value, &value, 0);
+    }
+    if (code != 0 && code != MDB_KEYEXIST) {
       return stop_storing(detail::lmdb_error(code, "store a view"));
     }
   }
