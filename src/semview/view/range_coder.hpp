@@ -43,34 +43,53 @@ inline constexpr unsigned kShareBits = 12;
 /// so it has been widened enough then.
 inline constexpr std::uint64_t kNarrow = std::uint64_t{1} << 32U;
 
+/// The numbers that begin with what has been coded, behind the bytes that are written already.
+struct Interval {
+  std::uint64_t low = 0;
+  std::uint64_t size = ~std::uint64_t{0};
+};
+
 class RangeEncoder {
  public:
   static constexpr bool kDecodes = false;
 
-  void code(Share share) {
-    const std::uint64_t unit = size_ >> kShareBits;
-    narrow(unit * share.start, unit * share.size);
-  }
+  void code(Share share) { code(interval_, share); }
   bool code(AdaptiveBit& situation, bool bit) {
-    const std::uint64_t cut = (size_ >> AdaptiveBit::kProbabilityBits) * situation.probability();
-    narrow(bit ? 0 : cut, bit ? cut : size_ - cut);
+    const std::uint64_t unit = interval_.size >> AdaptiveBit::kProbabilityBits;
+    const std::uint64_t cut = unit * situation.probability();
+    narrow(interval_, bit ? 0 : cut, bit ? cut : interval_.size - cut);
     situation.learn(bit);
     return bit;
   }
   /// The lowest `count` bits of `value`, each as likely 0 as 1.
   std::uint32_t code_plain(std::uint32_t value, unsigned count) {
-    for (; count > 16; count -= 16) code_few(value >> (count - 16), 16);
-    code_few(value, count);
+    for (; count > 16; count -= 16) code_few(interval_, value >> (count - 16), 16);
+    code_few(interval_, value, count);
     return value;
   }
+
+  // To code much at once: an interval of the caller's stays in registers.
+  Interval interval() const { return interval_; }
+  void go_on_from(const Interval& interval) { interval_ = interval; }
+  void code(Interval& interval, Share share) {
+    const std::uint64_t unit = interval.size >> kShareBits;
+    narrow(interval, unit * share.start, unit * share.size);
+  }
+  /// As `code_plain`, at most 16 bits.
+  void code_few(Interval& interval, std::uint32_t value, unsigned count) {
+    const std::uint64_t unit = interval.size >> count;
+    narrow(interval, unit * (value & ((1U << count) - 1U)), unit);
+  }
+
   void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
   /// The fewest bytes that name a number in the interval; zeros follow by themselves.
   std::vector<std::byte> finish() && {
+    const auto& [low, size] = interval_;
     for (unsigned bytes = 1; bytes <= 8; ++bytes) {
       const std::uint64_t rest = bytes == 8 ? 0 : ~std::uint64_t{0} >> (8 * bytes);
-      const std::uint64_t number = (low_ + rest) & ~rest;
-      if (number - low_ >= size_) continue;
-      if (number < low_) carry();
+      const std::uint64_t number = (low + rest) & ~rest;
+      if (number - low >= size) continue;
+      if (number < low) carry();
       for (unsigned i = 0; i < bytes; ++i) bytes_.push_back(byte_of(number, i));
       break;
     }
@@ -79,20 +98,19 @@ class RangeEncoder {
   }
 
  private:
-  void code_few(std::uint32_t value, unsigned count) {
-    const std::uint64_t unit = size_ >> count;
-    narrow(unit * (value & ((1U << count) - 1U)), unit);
+  void narrow(Interval& interval, std::uint64_t start, std::uint64_t size) {
+    interval.low += start;
+    if (interval.low < start) carry();
+    interval.size = size;
+    if (size >= kNarrow) return;
+    write_word(interval.low);
+    interval.low <<= 32U;
+    interval.size <<= 32U;
   }
-  void narrow(std::uint64_t start, std::uint64_t size) {
-    low_ += start;
-    if (low_ < start) carry();
-    size_ = size;
-    if (size_ >= kNarrow) return;
+  void write_word(std::uint64_t low) {
     const std::size_t end = bytes_.size();
     bytes_.resize(end + 4);
-    for (unsigned i = 0; i < 4; ++i) bytes_[end + i] = byte_of(low_, i);
-    low_ <<= 32U;
-    size_ <<= 32U;
+    for (unsigned i = 0; i < 4; ++i) bytes_[end + i] = byte_of(low, i);
   }
   void carry() {
     // What has been coded is below 1, so some byte takes it.
@@ -105,8 +123,7 @@ class RangeEncoder {
     return static_cast<std::byte>((number >> (56 - 8 * i)) & 0xffU);
   }
 
-  std::uint64_t low_ = 0;
-  std::uint64_t size_ = ~std::uint64_t{0};
+  Interval interval_;
   std::vector<std::byte> bytes_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,41 +35,45 @@ ViewShape code_shape(Coder& coder, const ViewShape& shape) {
 struct ChangedColumn {
   int column;
   bool fresh;  ///< of other classes, or more or fewer
+  /// If not: for each edge a bit that says whether it is elsewhere; the last one for all from the
+  /// 64th on.
+  std::uint64_t moved;
 };
 
-/// Whether two columns of as many runs are of the same classes; `moved` then says whether an edge
-/// is elsewhere.
-bool same_classes(std::span<const Run> left, std::span<const Run> column, bool& moved) {
-  unsigned rows = 0;
-  for (std::size_t i = 0; i < column.size(); ++i) {
-    if (left[i].label != column[i].label) return false;
-    rows |= unsigned{left[i].end_row} ^ unsigned { column[i].end_row };
-  }
-  moved = rows != 0;
-  return true;
-}
+struct ChangedColumns {
+  std::unique_ptr<ChangedColumn[]> columns;
+  std::size_t count = 0;
+
+  std::span<const ChangedColumn> span() const { return {columns.get(), count}; }
+};
 
 /// In order; the first column is fresh. Without a branch on whether edges moved: a view has a
 /// hundred moves, and no processor can foresee them.
-std::vector<ChangedColumn> changed_columns(const ColumnView& view) {
-  std::vector<ChangedColumn> changed(static_cast<std::size_t>(view.columns()));
-  changed[0] = {0, true};
-  std::size_t count = 1;
+ChangedColumns changed_columns(const ColumnView& view) {
+  ChangedColumns changed;
+  changed.columns =
+      std::make_unique_for_overwrite<ChangedColumn[]>(static_cast<std::size_t>(view.columns()));
+  changed.columns[changed.count++] = {0, true, 0};
   std::span<const Run> left = view.column(0);
   for (int c = 1; c < view.columns(); ++c) {
     const std::span<const Run> column = view.column(c);
-    bool moved = false;
-    const bool fresh = left.size() != column.size() || !same_classes(left, column, moved);
-    changed[count] = {c, fresh};
-    count += fresh || moved ? 1 : 0;
+    bool fresh = left.size() != column.size();
+    std::uint64_t moved = 0;
+    for (std::size_t i = 0; !fresh && i < column.size(); ++i) {
+      fresh = left[i].label != column[i].label;
+      const bool moves = left[i].end_row != column[i].end_row;
+      moved |= std::uint64_t{moves} << std::min<std::size_t>(i, 63);
+    }
+    changed.columns[changed.count] = {c, fresh, moved};
+    changed.count += fresh || moved != 0 ? 1 : 0;
     left = column;
   }
-  changed.resize(count);
   return changed;
 }
 
-/// No run takes more symbols than this, no column more than one beside.
-constexpr std::size_t kMostSymbolsARun = 5;
+/// At most so many symbols tell a column: a class in two, an end in two and a gap of each run, and
+/// the gap to the next fresh one; or a step and a gap of each.
+std::size_t most_symbols(std::size_t runs, bool fresh) { return fresh ? 5 * runs + 1 : 2 * runs; }
 
 /// The runs of a view as they are read.
 struct Runs {
@@ -113,13 +118,18 @@ std::optional<int> decode_runs(RangeDecoder& decoder, const ViewShape& shape, Ru
 }  // namespace
 
 SymbolWriter symbols_of(const ColumnView& view) {
-  const std::vector<ChangedColumn> changed = changed_columns(view);
-  SymbolWriter writer(view.runs().size() * kMostSymbolsARun + changed.size());
+  const ChangedColumns found = changed_columns(view);
+  const std::span<const ChangedColumn> changed = found.span();
+  std::size_t most = 0;
+  for (const ChangedColumn& change : changed) {
+    most += most_symbols(view.column(change.column).size(), change.fresh);
+  }
+  SymbolWriter writer(most);
   ColumnWalk walk(writer, view.columns(), view.rows(), view.has_ranges());
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    const auto [column, fresh] = changed[i];
+    const auto [column, fresh, moved] = changed[i];
     if (!fresh) {
-      walk.write_moves(column, view.column(column - 1), view.column(column));
+      walk.write_moves(column, view.column(column), moved);
       continue;
     }
     std::size_t next = i + 1;

@@ -44,6 +44,9 @@ class ColumnWalk {
  public:
   ColumnWalk(Coder& coder, int columns, int rows, bool ranges)
       : coder_(coder), columns_(columns), rows_(rows), ranges_(ranges) {
+    constexpr std::size_t kUsual = 16;
+    edges_.reserve(kUsual);
+    next_edges_.reserve(kUsual);
     edges_.push_back({rows});
   }
 
@@ -64,24 +67,17 @@ class ColumnWalk {
     return true;
   }
 
-  /// Writes a column of the same classes as `left`, at least one edge elsewhere.
-  void write_moves(int column, std::span<const Run> left, std::span<const Run> runs) {
+  /// Writes a column of the same classes as that to its left, at least one edge elsewhere: `moved`
+  /// has a bit for each edge, the last one for all from the 64th on.
+  void write_moves(int column, std::span<const Run> runs, std::uint64_t moved) {
     column_ = column;
-    constexpr std::size_t kAtOnce = 64;
-    for (std::size_t first = 0; first < runs.size(); first += kAtOnce) {
-      // Which edges move is found first: no processor can foresee it, one by one.
-      std::uint64_t moved = 0;
-      const std::size_t count = std::min(runs.size() - first, kAtOnce);
-      for (std::size_t i = 0; i < count; ++i) {
-        const bool moves = left[first + i].end_row != runs[first + i].end_row;
-        moved |= static_cast<std::uint64_t>(moves) << i;
-      }
-      for (; moved != 0; moved &= moved - 1) {
-        const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(moved));
-        Edge& edge = edges_[i];
-        coder_.close_gap(edge.next, static_cast<std::uint32_t>(column - edge.told));
-        code_move(edge, runs[i].end_row - edge.row);
-      }
+    constexpr std::uint64_t kMany = std::uint64_t{1} << 63U;
+    for (std::uint64_t left = moved & ~kMany; left != 0; left &= left - 1) {
+      write_move(static_cast<std::size_t>(std::countr_zero(left)), runs);
+    }
+    if ((moved & kMany) == 0) return;
+    for (std::size_t i = 63; i < runs.size(); ++i) {
+      if (runs[i].end_row != edges_[i].row) write_move(i, runs);
     }
   }
 
@@ -127,6 +123,12 @@ class ColumnWalk {
     } else {
       edge.next = coder_.open_gap(situation);
     }
+  }
+
+  void write_move(std::size_t i, std::span<const Run> runs) {
+    Edge& edge = edges_[i];
+    coder_.close_gap(edge.next, static_cast<std::uint32_t>(column_ - edge.told));
+    code_move(edge, runs[i].end_row - edge.row);
   }
 
   void code_move(Edge& edge, std::int32_t step) {

@@ -49,9 +49,9 @@ class SymbolWriter {
 
   struct Symbol {
     std::uint16_t situation;
-    std::uint8_t symbol;
-    std::uint8_t plain_bits;
-    std::uint32_t plain;
+    std::uint16_t symbol;
+    std::uint16_t plain_bits;
+    std::uint16_t plain;
   };
 
   /// For at most so many symbols.
@@ -60,13 +60,13 @@ class SymbolWriter {
 
   std::uint32_t code(Situation situation, std::uint32_t symbol) {
     symbols_[count_++] = {
-        static_cast<std::uint16_t>(situation), static_cast<std::uint8_t>(symbol), 0, 0};
+        static_cast<std::uint16_t>(situation), static_cast<std::uint16_t>(symbol), 0, 0};
     return symbol;
   }
-  /// Goes with the symbol before it.
+  /// Goes with the symbol before it; at most 16 bits.
   std::uint32_t plain(std::uint32_t value, unsigned bits) {
-    symbols_[count_ - 1].plain = value;
-    symbols_[count_ - 1].plain_bits = static_cast<std::uint8_t>(bits);
+    symbols_[count_ - 1].plain = static_cast<std::uint16_t>(value);
+    symbols_[count_ - 1].plain_bits = static_cast<std::uint16_t>(bits);
     return value;
   }
   /// A gap not known yet, 0 if it never will be. @returns what names it.
@@ -77,16 +77,18 @@ class SymbolWriter {
   void close_gap(std::uint32_t name, std::uint32_t gap) {
     const GapCode coded = GapCode::of(gap);
     Symbol& symbol = symbols_[name];
-    symbol.symbol = static_cast<std::uint8_t>(coded.symbol);
-    symbol.plain = coded.plain;
-    symbol.plain_bits = static_cast<std::uint8_t>(GapCode::bits_of(coded.symbol));
+    symbol.symbol = static_cast<std::uint16_t>(coded.symbol);
+    symbol.plain = static_cast<std::uint16_t>(coded.plain);
+    symbol.plain_bits = static_cast<std::uint16_t>(GapCode::bits_of(coded.symbol));
   }
   std::span<const Symbol> symbols() const { return {symbols_.get(), count_}; }
   void write(RangeEncoder& encoder) const {
+    Interval interval = encoder.interval();
     for (const Symbol& symbol : symbols()) {
-      encoder.code(kViewShares.share(symbol.situation, symbol.symbol));
-      if (symbol.plain_bits > 0) encoder.code_plain(symbol.plain, symbol.plain_bits);
+      encoder.code(interval, kViewShares.share(symbol.situation, symbol.symbol));
+      if (symbol.plain_bits > 0) encoder.code_few(interval, symbol.plain, symbol.plain_bits);
     }
+    encoder.go_on_from(interval);
   }
 
  private:
