@@ -124,12 +124,19 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
                                          const std::string& id,
                                          const SiteConfig& config,
                                          SharedTiers tiers) {
+  SEMVIEW_TRY(map::SemanticMap map, map::load_map(path, {config.nearest_colour}));
+  if (!id.empty()) map.id = id;
+  return of(std::move(map), config, std::move(tiers));
+}
+
+Result<std::shared_ptr<Site>> Site::of(map::SemanticMap map,
+                                       const SiteConfig& config,
+                                       SharedTiers tiers) {
   SEMVIEW_TRY_STATUS(validate(config));
   auto parts = std::make_unique<Parts>();
-  SEMVIEW_TRY(parts->map, map::load_map(path, {config.nearest_colour}));
-  if (!id.empty()) parts->map.id = id;
+  parts->map = std::move(map);
   Result<raycast::Scene> scene = raycast::Scene::build(parts->map);
-  if (!scene) return with_context(std::move(scene), path.string());
+  if (!scene) return with_context(std::move(scene), parts->map.directory.string());
   parts->scene = std::make_shared<const raycast::Scene>(*std::move(scene));
   SEMVIEW_TRY(parts->cells, build_cells(parts->map, *parts->scene, config.profile.eye_height_m));
   if (!parts->cells.any_view()) {
@@ -141,7 +148,7 @@ Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
                       "--eye-height",
                       fmt::format("semview map check --eye-height {} {} says why",
                                   config.profile.eye_height_m,
-                                  path.string())});
+                                  parts->map.directory.string())});
   }
   parts->tiers = std::move(tiers);
   SEMVIEW_TRY(raycast::EngineChoice choice,

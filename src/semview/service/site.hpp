@@ -77,7 +77,11 @@ class Site {
                                             const std::string& id,
                                             const SiteConfig& config,
                                             SharedTiers tiers);
-  /// The same with tiers of its own.
+  /// Of a map that is loaded already. @errors as `open` without those of loading
+  static Result<std::shared_ptr<Site>> of(map::SemanticMap map,
+                                          const SiteConfig& config,
+                                          SharedTiers tiers);
+  /// `open` with tiers of its own.
   static Result<std::shared_ptr<Site>> open(const std::filesystem::path& path,
                                             const SiteConfig& config);
   ~Site();
