@@ -23,9 +23,10 @@ class Beacon final : public ObservationModel {
   double sigma_m = 0.2;
   double heading_sigma_rad = 0.1;
 
-  Result<ObservationWeights> weigh(std::span<const Pose2> poses) override {
+  Result<ObservationWeights> weigh(std::span<const Particle> particles) override {
     ObservationWeights weights;
-    for (const Pose2& pose : poses) {
+    for (const Particle& particle : particles) {
+      const Pose2& pose = particle.map_from_robot;
       const double distance = distance_m(pose, truth) / sigma_m;
       const double turn = wrap_angle(pose.yaw_rad - truth.yaw_rad) / heading_sigma_rad;
       weights.log_weights.push_back(-0.5 * (distance * distance + turn * turn));
@@ -38,7 +39,7 @@ class Beacon final : public ObservationModel {
 class Constant final : public ObservationModel {
  public:
   Result<ObservationWeights> answer;
-  Result<ObservationWeights> weigh(std::span<const Pose2>) override { return answer; }
+  Result<ObservationWeights> weigh(std::span<const Particle>) override { return answer; }
 };
 
 const Pose2 kStep{0.3, 0.0, 0.1};
@@ -49,6 +50,20 @@ ParticleFilter filter_at(const Pose2& start, std::uint64_t seed, double threshol
                         std::make_shared<OdometryMotionModel>(OdometryMotionConfig{}),
                         gaussian_particles(start, 0.5, 0.2, 500, rng),
                         seed);
+}
+
+TEST(ParticleFilterTest, AStepIsAsLongAsTheDistortedMapDrawsIt) {
+  ParticleSet particles(1);
+  particles[0].weight = 1.0;
+  particles[0].map_from_robot = {1.0, 2.0, kPi / 2.0};
+  particles[0].affine = {.a = 0.5, .b = 2.0, .k = 0.3};
+  PositionNoiseConfig noise;
+  noise.sigma_m = 0.0;
+  noise.heading_sigma_rad = 0.0;
+  ParticleFilter filter({}, std::make_shared<PositionNoiseModel>(noise), particles, 1);
+  filter.predict({1.0, -1.0, 0.0});  // in the map's axes: 1 m along x, 1 m along y
+  EXPECT_NEAR(filter.particles()[0].map_from_robot.x_m, 1.0 + 0.5, 1e-12);
+  EXPECT_NEAR(filter.particles()[0].map_from_robot.y_m, 2.0 + 0.3 + 2.0, 1e-12);
 }
 
 TEST(ParticleFilterTest, ConvergesOnABeacon) {

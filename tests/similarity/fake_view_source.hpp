@@ -6,6 +6,8 @@
 #include <memory>
 #include <mutex>
 
+#include <fmt/format.h>
+
 #include "semview/view/view_source.hpp"
 #include "similarity/random_scene.hpp"
 
@@ -31,10 +33,20 @@ class FakeViewSource final : public ViewSource {
     return batch;
   }
 
-  SharedView view(const CellIndex& cell) const {
+  /// A distorted map's views have nothing to do with those of the map as it is drawn.
+  Result<ViewBatch> undistorted_views(std::span<const CellIndex> cells,
+                                      const MapAffine& affine) override {
+    if (affine.is_identity()) return views(cells);
+    ViewBatch batch;
+    for (const CellIndex& cell : cells) batch.views.push_back(view(cell, affine));
+    batch.origins.cast = cells.size();
+    return batch;
+  }
+
+  SharedView view(const CellIndex& cell, const MapAffine& affine = {}) const {
     if (cell.ix % 7 == 0) return nullptr;
     Rng rng(static_cast<std::uint64_t>(cell.ix + 1000),
-            "view",
+            fmt::format("view {} {} {}", affine.a, affine.b, affine.k),
             static_cast<std::uint64_t>(cell.iy + 1000));
     return std::make_shared<const ColumnView>(
         ColumnView::from_labels(random_labels(rng, profile_.camera, classes_)));

@@ -24,6 +24,11 @@ std::vector<std::byte> to_bytes(const Keyspace& keyspace) {
   out.add_f64(keyspace.profile.eye_height_m);
   // Nothing where there are none: caches from before there were ranges keep their keys.
   if (keyspace.profile.ranges) out.add(std::uint8_t{1});
+  if (!keyspace.affine.is_identity()) {
+    out.add_f64(keyspace.affine.a);
+    out.add_f64(keyspace.affine.b);
+    out.add_f64(keyspace.affine.k);
+  }
   return std::move(out).take();
 }
 
@@ -44,7 +49,15 @@ Result<Keyspace> keyspace_from_bytes(std::span<const std::byte> bytes) {
   camera.elevation_min_rad = in.take_f64();
   camera.elevation_max_rad = in.take_f64();
   keyspace.profile.eye_height_m = in.take_f64();
-  keyspace.profile.ranges = in.left() == 1 && in.take<std::uint8_t>() == 1;
+  constexpr std::size_t kAffineBytes = 3 * sizeof(double);
+  const bool distorted = in.left() >= kAffineBytes;
+  keyspace.profile.ranges =
+      in.left() == (distorted ? kAffineBytes : 0) + 1 && in.take<std::uint8_t>() == 1;
+  if (distorted) {
+    keyspace.affine.a = in.take_f64();
+    keyspace.affine.b = in.take_f64();
+    keyspace.affine.k = in.take_f64();
+  }
   if (in.failed() || in.left() != 0) return fail(ErrorCode::kDataLoss, "key: wrong length");
   if (Status valid = validate(keyspace.profile); !valid) {
     return fail(ErrorCode::kDataLoss, "key: " + valid.error().message);

@@ -12,6 +12,7 @@
 
 #include "semview/core/hash.hpp"
 #include "semview/core/result.hpp"
+#include "semview/geometry/affine.hpp"
 #include "semview/geometry/pose_grid.hpp"
 #include "semview/view/view_profile.hpp"
 
@@ -26,6 +27,7 @@ struct Keyspace {
   std::string engine;  ///< at most `kMaxEngineName` bytes
   std::uint32_t engine_version = 0;
   ViewProfile profile;
+  MapAffine affine = {};  ///< how the plan is taken to be distorted
 
   bool operator==(const Keyspace&) const = default;
 };

@@ -2,6 +2,10 @@
 /// A distorted plan: drawn metres = A · true metres.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <compare>
+
 #include <Eigen/Core>
 
 namespace semview {
@@ -14,6 +18,9 @@ struct MapAffine {
   double k = 0.0;  ///< in [-2, 2]
 
   bool operator==(const MapAffine&) const = default;
+  auto operator<=>(const MapAffine&) const = default;
+
+  bool is_identity() const { return *this == MapAffine{}; }
 
   /// A true unit direction turned into the drawn map and not normalised again: a ray's parameter
   /// stays the true range, and a heading stays a shift of columns.
@@ -21,5 +28,20 @@ struct MapAffine {
     return {a * direction.x(), k * direction.x() + b * direction.y(), direction.z()};
   }
 };
+
+/// How finely distortions are told apart where views are cached: scales by steps of their
+/// logarithm, shears by steps.
+inline constexpr double kAffineStep = 0.02;
+
+/// The nearest distortion of the grid of `kAffineStep`, within the ranges above; the identity is on
+/// it. Equal steps give equal bits on every machine.
+inline MapAffine on_affine_grid(const MapAffine& affine) {
+  const auto scale = [](double value) {
+    const double steps = std::round(std::log(value) / kAffineStep);
+    return steps == 0.0 ? 1.0 : std::min(5.0, std::max(0.2, std::exp(steps * kAffineStep)));
+  };
+  const double shear = std::round(affine.k / kAffineStep) * kAffineStep;
+  return {scale(affine.a), scale(affine.b), std::min(2.0, std::max(-2.0, shear)) + 0.0};
+}
 
 }  // namespace semview

@@ -13,6 +13,9 @@ namespace semview::localization {
 enum class HeadingStrategy {
   kOdometry,  ///< the sampled yaw is scored and reported
   kCompass,   ///< every heading is scored, the best counts and is reported
+  /// Every heading is scored and weighed by how near it is to the one that odometry says: the
+  /// paper's future work (section V). The choice goes on as the particle's yaw.
+  kCombined,
 };
 
 /// What a compass reading does to the yaw that the next odometry steps are turned by.

@@ -6,27 +6,28 @@
 #include <vector>
 
 #include "semview/core/result.hpp"
-#include "semview/geometry/pose2.hpp"
+#include "semview/localization/particle_set.hpp"
 
 namespace semview::localization {
 
 /// How well each pose explains the current observation.
 struct ObservationWeights {
-  /// One a pose; a common offset means nothing. -∞: impossible.
+  /// One a particle; a common offset means nothing. -∞: impossible.
   std::vector<double> log_weights;
-  /// From a visual compass: one a pose, the heading that explains it best (NaN:
-  /// no reading); else empty.
+  /// From a visual compass: one a particle, the heading that explains the observation best there
+  /// (NaN: no reading); else empty.
   std::vector<double> headings_rad;
 };
 
-/// Weighs a batch of poses against the observation that its owner has given it.
+/// Weighs a batch of particles against the observation that its owner has given it.
 ///
-/// The weight of a pose depends on the pose and the observation alone, apart from rules about
-/// poses that cannot be weighed, which may look at the batch. @threads for one thread at a time
+/// The weight of a particle depends on its pose, on whether its yaw is known, and on the
+/// observation alone, apart from rules about poses that cannot be weighed, which may look at the
+/// batch. Weights that the particles have play no part. @threads for one thread at a time
 class ObservationModel {
  public:
   virtual ~ObservationModel() = default;
-  virtual Result<ObservationWeights> weigh(std::span<const Pose2> poses) = 0;
+  virtual Result<ObservationWeights> weigh(std::span<const Particle> particles) = 0;
 };
 
 }  // namespace semview::localization

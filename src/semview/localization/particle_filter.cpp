@@ -18,6 +18,7 @@ Status validate(const ParticleFilterConfig& config) {
               fmt::format("resample threshold is {}: expected 0 to 1", config.resample_threshold),
               "resample_threshold"});
   }
+  if (config.affine) SEMVIEW_TRY_STATUS(validate(*config.affine));
   return validate(config.compass);
 }
 
@@ -39,21 +40,27 @@ void ParticleFilter::predict(const Pose2& before_from_after) {
   Rng rng(seed_, "motion", predictions_);
   for (Particle& particle : particles_) {
     const double turned_by_rad = -particle.map_from_robot.yaw_rad;
-    particle.map_from_robot = motion_->sample(particle.map_from_robot, before_from_after, rng);
+    const Pose2 before = particle.map_from_robot;
+    Pose2& after = particle.map_from_robot;
+    after = motion_->sample(before, before_from_after, rng);
+    if (!particle.affine.is_identity()) {
+      // A true step as the drawn map has it.
+      const double x_m = after.x_m - before.x_m;
+      const double y_m = after.y_m - before.y_m;
+      after.x_m = before.x_m + particle.affine.a * x_m;
+      after.y_m = before.y_m + particle.affine.k * x_m + particle.affine.b * y_m;
+    }
     particle.heading_rad =
         wrap_angle(particle.heading_rad + turned_by_rad + particle.map_from_robot.yaw_rad);
   }
 }
 
 Result<UpdateReport> ParticleFilter::update(ObservationModel& model) {
-  std::vector<Pose2> poses;
-  poses.reserve(particles_.size());
-  for (const Particle& particle : particles_) poses.push_back(particle.map_from_robot);
-  SEMVIEW_TRY(const ObservationWeights weights, model.weigh(poses));
+  SEMVIEW_TRY(const ObservationWeights weights, model.weigh(particles_));
   if (weights.log_weights.size() != particles_.size() ||
       (!weights.headings_rad.empty() && weights.headings_rad.size() != particles_.size())) {
     return fail(ErrorCode::kInternal,
-                fmt::format("the observation model weighed {} of {} poses",
+                fmt::format("the observation model weighed {} of {} particles",
                             weights.log_weights.size(),
                             particles_.size()));
   }
@@ -83,6 +90,10 @@ bool ParticleFilter::resample_if_needed() {
     drawn.back().weight = 1.0 / count;
   }
   particles_ = std::move(drawn);
+  if (config_.affine) {
+    Rng affine_rng(seed_, "affine", predictions_);
+    renew_affines(particles_, *config_.affine, affine_rng);
+  }
   return true;
 }
 

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "semview/core/result.hpp"
+#include "semview/localization/affine_state.hpp"
 #include "semview/localization/heading_strategy.hpp"
 #include "semview/localization/motion_model.hpp"
 #include "semview/localization/observation_model.hpp"
@@ -19,6 +21,9 @@ struct ParticleFilterConfig {
   /// every observation as the 2017 paper does, 0 never.
   double resample_threshold = 0.5;
   CompassConfig compass = {};
+  /// Set: particles carry distortions of the map, which resampling renews. The owner gives the
+  /// first particles theirs (`spread_affines`).
+  std::optional<AffineStateConfig> affine = {};
 };
 
 /// @errors kInvalidArgument: out of range; `Error::field` names it.

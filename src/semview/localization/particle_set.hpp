@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "semview/geometry/affine.hpp"
 #include "semview/geometry/pose2.hpp"
 
 namespace semview::localization {
@@ -20,6 +21,9 @@ struct Particle {
   /// direction.
   bool yaw_known = true;
   double weight = 0.0;
+  /// How the map is distorted, if it may be: the position is in the drawn map, the yaw in the true
+  /// world, and odometry's steps are true metres.
+  MapAffine affine = {};
 
   /// Position and reported heading.
   Pose2 reported_pose() const { return {map_from_robot.x_m, map_from_robot.y_m, heading_rad}; }

@@ -13,12 +13,14 @@ struct PositionNoiseConfig {
   /// apart, on distorted maps.
   double sigma_m = 0.5;
   double heading_sigma_rad = kPi / 90.0;  ///< σ of the yaw a filter step; >= 0
+  /// Added to σ for each metre of the step; >= 0. 0 is the paper's noise.
+  double sigma_per_m = 0.0;
 };
 
 /// @errors kInvalidArgument: a parameter is negative or not finite; `Error::field` names it.
 Status validate(const PositionNoiseConfig& config);
 
-/// x and y each get N(0, σ²), in the map's axes, whatever the length of the step.
+/// x and y each get N(0, (σ + σ_per_m · length)²), in the map's axes.
 /// @source Neubert et al. 2017, section IV-A.1.
 class PositionNoiseModel final : public MotionModel {
  public:

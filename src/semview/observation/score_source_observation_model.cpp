@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,9 +15,14 @@ namespace {
 
 using localization::ObservationWeights;
 
-Status check_shape(const ScoreBatch& batch, std::size_t poses, bool compass) {
-  const bool complete =
-      batch.sums.size() == poses && (!compass || batch.best_heading.size() == poses);
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+Status check_shape(const ScoreBatch& batch, std::size_t poses, const ScoreRequest& request) {
+  const bool compass = request.mode == HeadingMode::kCompass;
+  const std::size_t curve = request.whole_curve ? poses * PoseGrid::kHeadings : 0;
+  const bool complete = batch.sums.size() == poses &&
+                        (!compass || batch.best_heading.size() == poses) &&
+                        batch.curve.size() >= curve;
   if (complete && batch.weight_scale > 0 && batch.observed_pixels > 0) return {};
   return fail(ErrorCode::kInternal,
               fmt::format("the score source answered {} sums and {} headings of {} poses "
@@ -57,34 +63,57 @@ Status ScoreSourceObservationModel::set_observation(const Observation& observati
   return source_.set_observation(observation);
 }
 
-Result<ObservationWeights> ScoreSourceObservationModel::weigh(std::span<const Pose2> poses) {
-  const bool compass = strategy_ == localization::HeadingStrategy::kCompass;
+Result<ObservationWeights> ScoreSourceObservationModel::weigh(
+    std::span<const localization::Particle> particles) {
+  using localization::HeadingStrategy;
+  const bool combined = strategy_ == HeadingStrategy::kCombined;
+  const bool compass = combined || strategy_ == HeadingStrategy::kCompass;
   ScoreRequest request;
-  request.poses.reserve(poses.size());
-  for (const Pose2& pose : poses) request.poses.push_back(pose * base_from_eye_);
+  request.poses.reserve(particles.size());
+  for (const localization::Particle& particle : particles) {
+    request.poses.push_back(particle.map_from_robot * base_from_eye_);
+  }
   request.mode = compass ? HeadingMode::kCompass : HeadingMode::kAsGiven;
-  SEMVIEW_TRY(const ScoreBatch batch, source_.score(request));
-  SEMVIEW_TRY_STATUS(check_shape(batch, poses.size(), compass));
-
-  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  ObservationWeights weights;
-  weights.log_weights.assign(poses.size(), kNothing);
-  double lowest = kNothing;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (batch.sums[i] == kNoView) continue;
-    const double value = log_weight(config_, batch.similarity(batch.sums[i]));
-    weights.log_weights[i] = value;
-    if (std::isfinite(value) && !(lowest <= value)) lowest = value;
-  }
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (batch.sums[i] == kNoView) weights.log_weights[i] = lowest;
-  }
-  if (compass) {
-    weights.headings_rad.reserve(poses.size());
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      weights.headings_rad.push_back(
-          batch.sums[i] == kNoView ? kNothing : PoseGrid::heading_yaw_rad(batch.best_heading[i]));
+  request.whole_curve = combined;
+  const bool distorted = std::ranges::any_of(
+      particles, [](const localization::Particle& one) { return !one.affine.is_identity(); });
+  if (distorted) {
+    for (const localization::Particle& particle : particles) {
+      request.affines.push_back(particle.affine);
     }
+  }
+  SEMVIEW_TRY(const ScoreBatch batch, source_.score(request));
+  SEMVIEW_TRY_STATUS(check_shape(batch, particles.size(), request));
+
+  ObservationWeights weights;
+  weights.log_weights.assign(particles.size(), kNothing);
+  if (compass) weights.headings_rad.assign(particles.size(), kNothing);
+  double lowest = kNothing;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (batch.sums[i] == kNoView) continue;
+    HeadingChoice choice;
+    if (combined) {
+      const std::span<const std::int32_t> curves(batch.curve);
+      const auto carried = particles[i].yaw_known
+                               ? std::optional(particles[i].map_from_robot.yaw_rad)
+                               : std::nullopt;
+      choice = combine_heading(curves.subspan(i * PoseGrid::kHeadings, PoseGrid::kHeadings),
+                               batch,
+                               carried,
+                               config_,
+                               combined_);
+    } else {
+      choice.log_weight = log_weight(config_, batch.similarity(batch.sums[i]));
+      if (compass) choice.heading_rad = PoseGrid::heading_yaw_rad(batch.best_heading[i]);
+    }
+    weights.log_weights[i] = choice.log_weight;
+    if (compass) weights.headings_rad[i] = choice.heading_rad;
+    if (std::isfinite(choice.log_weight) && !(lowest <= choice.log_weight)) {
+      lowest = choice.log_weight;
+    }
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (batch.sums[i] == kNoView) weights.log_weights[i] = lowest;
   }
   last_scores_ = summarize(batch);
   return weights;

@@ -4,6 +4,7 @@
 
 #include "semview/localization/heading_strategy.hpp"
 #include "semview/localization/observation_model.hpp"
+#include "semview/observation/combined_heading.hpp"
 #include "semview/observation/similarity_weighting.hpp"
 #include "semview/view/observation.hpp"
 #include "semview/view/score_source.hpp"
@@ -23,11 +24,12 @@ struct ScoreSummary {
 /// view, every log weight is NaN: the batch says nothing.
 class ScoreSourceObservationModel final : public localization::ObservationModel {
  public:
-  /// `source` must outlive the model; `config` must be valid.
+  /// `source` must outlive the model; the configurations must be valid.
   ScoreSourceObservationModel(ScoreSource& source,
                               localization::HeadingStrategy strategy,
-                              const SimilarityWeightingConfig& config)
-      : source_(source), strategy_(strategy), config_(config) {}
+                              const SimilarityWeightingConfig& config,
+                              const CombinedHeadingConfig& combined = {})
+      : source_(source), strategy_(strategy), config_(config), combined_(combined) {}
 
   /// What the next poses are weighed against. @errors those of `ScoreSource::set_observation`
   Status set_observation(const Observation& observation);
@@ -35,7 +37,8 @@ class ScoreSourceObservationModel final : public localization::ObservationModel 
   /// Scores where the robot's eye would stand. A compass finds the heading there; the eye itself is
   /// placed by the pose's own yaw, which for a robot's few centimetres is near enough.
   /// @errors those of `ScoreSource::score`; kInternal: an answer of another size than the question.
-  Result<localization::ObservationWeights> weigh(std::span<const Pose2> poses) override;
+  Result<localization::ObservationWeights> weigh(
+      std::span<const localization::Particle> particles) override;
 
   /// Of the last `weigh` that gave weights.
   const ScoreSummary& last_scores() const { return last_scores_; }
@@ -44,6 +47,7 @@ class ScoreSourceObservationModel final : public localization::ObservationModel 
   ScoreSource& source_;
   localization::HeadingStrategy strategy_;
   SimilarityWeightingConfig config_;
+  CombinedHeadingConfig combined_;
   Pose2 base_from_eye_;
   ScoreSummary last_scores_;
 };

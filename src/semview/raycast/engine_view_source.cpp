@@ -25,12 +25,18 @@ EngineViewSource::EngineViewSource(std::shared_ptr<const Engine> engine,
       pool_(&pool) {}
 
 Result<ViewBatch> EngineViewSource::views(std::span<const CellIndex> cells) {
+  return undistorted_views(cells, {});
+}
+
+Result<ViewBatch> EngineViewSource::undistorted_views(std::span<const CellIndex> cells,
+                                                      const MapAffine& affine) {
+  SEMVIEW_TRY_STATUS(validate(affine));
   ViewBatch batch;
   batch.views.resize(cells.size());
   // A panorama takes a twentieth of a millisecond at least: one cell a task balances best.
   pool_->parallel_for(cells.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const PanoramaRequest request{PoseGrid::center(cells[i]), eye_z_m_, profile_.camera, {}};
+      const PanoramaRequest request{PoseGrid::center(cells[i]), eye_z_m_, profile_.camera, affine};
       batch.views[i] =
           std::make_shared<const ColumnView>(engine_->column_view(request, profile_.ranges));
     }

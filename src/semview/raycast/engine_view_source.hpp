@@ -27,6 +27,9 @@ class EngineViewSource final : public ViewSource {
   const ViewProfile& profile() const override { return profile_; }
   /// @errors none
   Result<ViewBatch> views(std::span<const CellIndex> cells) override;
+  /// @errors kInvalidArgument: an affine outside of its limits.
+  Result<ViewBatch> undistorted_views(std::span<const CellIndex> cells,
+                                      const MapAffine& affine) override;
 
  private:
   EngineViewSource(std::shared_ptr<const Engine> engine,

@@ -23,6 +23,8 @@ class CachedViewSource final : public ViewSource {
   const ViewProfile& profile() const override { return source_.profile(); }
   /// @errors those of the source; kInternal: it threw
   Result<ViewBatch> views(std::span<const CellIndex> cells) override;
+  Result<ViewBatch> undistorted_views(std::span<const CellIndex> cells,
+                                      const MapAffine& affine) override;
 
  private:
   ViewSource& source_;

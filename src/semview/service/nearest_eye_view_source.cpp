@@ -11,6 +11,11 @@
 namespace semview::service {
 
 Result<ViewBatch> NearestEyeViewSource::views(std::span<const CellIndex> cells) {
+  return undistorted_views(cells, {});
+}
+
+Result<ViewBatch> NearestEyeViewSource::undistorted_views(std::span<const CellIndex> cells,
+                                                          const MapAffine& affine) {
   std::vector<CellIndex> distinct;
   std::unordered_map<CellIndex, std::size_t> index;
   std::vector<std::optional<std::size_t>> view_of(cells.size());
@@ -21,7 +26,7 @@ Result<ViewBatch> NearestEyeViewSource::views(std::span<const CellIndex> cells) 
     if (is_new) distinct.push_back(*cell);
     view_of[i] = entry->second;
   }
-  SEMVIEW_TRY(const ViewBatch found, source_.views(distinct));
+  SEMVIEW_TRY(const ViewBatch found, source_.undistorted_views(distinct, affine));
   ViewBatch batch;
   batch.origins = found.origins;
   batch.views.resize(cells.size());

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "semview/similarity/score_distorted.hpp"
 #include "semview/similarity/score_poses.hpp"
 
 namespace semview::similarity {
@@ -27,7 +28,8 @@ Result<ScoreBatch> SimilarityScoreSource::score(const ScoreRequest& request) {
   if (!observation_) {
     return fail(ErrorCode::kFailedPrecondition, "score: no observation has been set");
   }
-  return score_poses(*observation_, views_, request, pool_);
+  if (request.affines.empty()) return score_poses(*observation_, views_, request, pool_);
+  return score_distorted(*observation_, views_, request, pool_);
 }
 
 }  // namespace semview::similarity

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "semview/core/result.hpp"
+#include "semview/geometry/affine.hpp"
 #include "semview/geometry/pose2.hpp"
 #include "semview/view/observation.hpp"
 #include "semview/view/view_source.hpp"
@@ -22,6 +23,10 @@ struct ScoreRequest {
   std::vector<Pose2> poses;
   HeadingMode mode = HeadingMode::kAsGiven;
   bool whole_curve = false;  ///< compass only: also the sum of each heading
+  /// How the map is distorted if the pose is right: one a pose, or empty for a map as it is. A
+  /// pose's position is in the drawn map, its yaw in the true world. Taken on the grid of
+  /// `kAffineStep`.
+  std::vector<MapAffine> affines = {};
 };
 
 /// The sum of a pose that has no view (docs/conventions.md#view-of-a-cell).

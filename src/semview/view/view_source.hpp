@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "semview/core/result.hpp"
+#include "semview/geometry/affine.hpp"
 #include "semview/geometry/pose_grid.hpp"
 #include "semview/view/column_view.hpp"
 #include "semview/view/view_profile.hpp"
@@ -45,6 +46,15 @@ class ViewSource {
   virtual ~ViewSource() = default;
   virtual const ViewProfile& profile() const = 0;
   virtual Result<ViewBatch> views(std::span<const CellIndex> cells) = 0;
+
+  /// The views of a plan that is drawn distorted, as they would be in the true world: from the same
+  /// cells of the drawn plan, with `affine` the way from true to drawn metres.
+  /// @errors kUnimplemented: this source has only the map as it is drawn.
+  virtual Result<ViewBatch> undistorted_views(std::span<const CellIndex> cells,
+                                              const MapAffine& affine) {
+    if (affine.is_identity()) return views(cells);
+    return fail(ErrorCode::kUnimplemented, "this source of views knows no distorted maps");
+  }
 };
 
 }  // namespace semview

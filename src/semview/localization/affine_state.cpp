@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/localization/affine_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace semview::localization {
+namespace {
+
+/// ln a, ln b, k: the coordinates in which distortions are averaged.
+using Coordinates = std::array<double, 3>;
+
+Coordinates coordinates(const MapAffine& affine) {
+  return {std::log(affine.a), std::log(affine.b), affine.k};
+}
+
+MapAffine affine_of(const Coordinates& at) {
+  const auto scale = [](double log_scale) { return std::clamp(std::exp(log_scale), 0.2, 5.0); };
+  return {scale(at[0]), scale(at[1]), std::clamp(at[2], -2.0, 2.0)};
+}
+
+struct Spread {
+  Coordinates mean{};
+  Coordinates sigma{};
+};
+
+/// By weight, of those particles that `included` takes.
+template <typename Included>
+Spread spread_of(const ParticleSet& particles, const Included& included) {
+  Spread spread;
+  double total = 0.0;
+  for (const Particle& particle : particles) {
+    if (!included(particle)) continue;
+    total += particle.weight;
+    const Coordinates at = coordinates(particle.affine);
+    for (std::size_t i = 0; i < at.size(); ++i) spread.mean[i] += particle.weight * at[i];
+  }
+  if (!(total > 0.0)) return {};
+  for (double& mean : spread.mean) mean /= total;
+  for (const Particle& particle : particles) {
+    if (!included(particle)) continue;
+    const Coordinates at = coordinates(particle.affine);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double off = at[i] - spread.mean[i];
+      spread.sigma[i] += particle.weight * off * off;
+    }
+  }
+  for (double& sigma : spread.sigma) sigma = std::sqrt(sigma / total);
+  return spread;
+}
+
+}  // namespace
+
+Status validate(const AffineStateConfig& config) {
+  const auto require = [](bool valid, const char* field, double value) -> Status {
+    if (valid) return {};
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("{} {} of a distorted map is out of range", field, value),
+                      field});
+  };
+  const auto is_share = [](double value) { return value >= 0.0 && value <= 1.0; };
+  const auto is_sigma = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  SEMVIEW_TRY_STATUS(
+      require(is_share(config.identity_share), "identity_share", config.identity_share));
+  SEMVIEW_TRY_STATUS(
+      require(is_sigma(config.log_scale_sigma), "log_scale_sigma", config.log_scale_sigma));
+  SEMVIEW_TRY_STATUS(require(is_sigma(config.shear_sigma), "shear_sigma", config.shear_sigma));
+  SEMVIEW_TRY_STATUS(require(is_share(config.renewal), "renewal", config.renewal));
+  return require(is_sigma(config.least_sigma), "least_sigma", config.least_sigma);
+}
+
+void spread_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng) {
+  for (Particle& particle : particles) {
+    const bool exact = rng.uniform() < config.identity_share;
+    const Coordinates drawn{rng.normal(0.0, config.log_scale_sigma),
+                            rng.normal(0.0, config.log_scale_sigma),
+                            rng.normal(0.0, config.shear_sigma)};
+    particle.affine = exact ? MapAffine{} : affine_of(drawn);
+  }
+}
+
+void renew_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng) {
+  const Spread spread =
+      spread_of(particles, [](const Particle& one) { return !one.affine.is_identity(); });
+  const double kept = std::sqrt(1.0 - config.renewal * config.renewal);
+  for (Particle& particle : particles) {
+    if (particle.affine.is_identity()) continue;
+    Coordinates at = coordinates(particle.affine);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double sigma = std::max(config.renewal * spread.sigma[i], config.least_sigma);
+      at[i] = spread.mean[i] + kept * (at[i] - spread.mean[i]) + rng.normal(0.0, sigma);
+    }
+    particle.affine = affine_of(at);
+  }
+}
+
+AffineEstimate estimate_affine(const ParticleSet& particles) {
+  const Spread spread = spread_of(particles, [](const Particle&) { return true; });
+  const MapAffine mean = affine_of(spread.mean);
+  return {mean, mean.a * spread.sigma[0], mean.b * spread.sigma[1], spread.sigma[2]};
+}
+
+}  // namespace semview::localization
