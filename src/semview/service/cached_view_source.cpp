@@ -14,9 +14,7 @@ Result<ViewBatch> CachedViewSource::undistorted_views(std::span<const CellIndex>
   cache::Keyspace keyspace = keyspace_;
   keyspace.affine = affine;
   return cache_->get_or_compute(
-      keyspace,
-      cells,
-      [&](std::span<const CellIndex> missing) -> Result<std::vector<SharedView>> {
+      keyspace, cells, [&](std::span<const CellIndex> missing) -> Result<std::vector<SharedView>> {
         SEMVIEW_TRY(ViewBatch batch, source_.undistorted_views(missing, affine));
         return std::move(batch.views);
       });

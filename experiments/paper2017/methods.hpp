@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The ways of localizing that are compared.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "semview/localization/affine_state.hpp"
+#include "semview/localization/heading_strategy.hpp"
+#include "semview/localization/pose_estimate.hpp"
+#include "semview/localization/position_noise_model.hpp"
+#include "semview/observation/combined_heading.hpp"
+#include "semview/observation/similarity_weighting.hpp"
+
+namespace semview::paper2017 {
+
+enum class WeightsKind {
+  kIdentity,  ///< 1 where names mean the same, else 0
+  kHand,      ///< the paper's concepts, weights/paper2017_ade20k150.csv
+  kLearned,   ///< log-likelihood ratios learned on training worlds
+};
+
+struct Method {
+  std::string id;
+  std::string title;
+  WeightsKind weights = WeightsKind::kHand;
+  bool stacked_plan = false;
+  localization::HeadingStrategy heading = localization::HeadingStrategy::kCompass;
+  /// Whether the compass turns the next odometry step: 0 never, 1 always.
+  double compass_gain = 0.0;
+  observation::SimilarityWeightingConfig weighting = {.power = 12.0};
+  observation::CombinedHeadingConfig combined = {};
+  localization::PositionNoiseConfig motion = {};
+  std::optional<localization::AffineStateConfig> affine = {};  ///< none: the map is exact
+  double start_sigma_m = 0.25;
+  double start_heading_sigma_rad = rad_from_deg(3.0);
+  /// The estimate that tables call "best".
+  localization::EstimateKind estimate = localization::EstimateKind::kHighestWeight;
+};
+
+/// The frozen baselines and ours.
+const std::vector<Method>& all_methods();
+
+/// Null if there is none of that id.
+const Method* find_method(std::string_view id);
+
+enum class Start {
+  kLocal,   ///< 500 particles around the known pose
+  kGlobal,  ///< 2000 particles over all free cells, any heading
+};
+
+inline constexpr std::size_t kLocalParticles = 500;
+inline constexpr std::size_t kGlobalParticles = 2000;
+
+/// "local" or "global".
+std::string_view name(Start start);
+
+}  // namespace semview::paper2017
