@@ -13,7 +13,7 @@ build=(
   libembree-dev libeigen3-dev libtinygltf-dev nlohmann-json3-dev
   cppzmq-dev libzmq3-dev libprotobuf-dev protobuf-compiler
   liblmdb-dev libzstd-dev libxxhash-dev libhwy-dev
-  libyaml-cpp-dev libpng-dev libcairo2-dev
+  libyaml-cpp-dev libpng-dev libjpeg-dev libcairo2-dev
   libspdlog-dev libfmt-dev libcli11-dev libexpected-dev
   ca-certificates
 )
@@ -27,7 +27,7 @@ test=(
 bench=(libbenchmark-dev libopen3d-dev libopencv-imgproc-dev python3 python3-numpy)
 runtime=(
   libembree3-3 libzmq5 libprotobuf32 liblmdb0 libzstd1 libxxhash0 libhwy1
-  libyaml-cpp0.7 libpng16-16 libcairo2 libspdlog1.10 libfmt9
+  libyaml-cpp0.7 libpng16-16 libjpeg62-turbo libcairo2 libspdlog1.10 libfmt9
   ca-certificates
 )
 

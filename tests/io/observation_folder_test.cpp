@@ -129,5 +129,31 @@ TEST(ObservationFolderTest, AMissingFileIsNotFound) {
   EXPECT_EQ(read_observation(folder / "obs", kProfile).error().code, ErrorCode::kNotFound);
 }
 
+TEST(ObservationFolderTest, ConfidenceIsReadWithTheLabels) {
+  const TemporaryFolder folder;
+  // Two source pixels a profile pixel and side: of the four, three are wall, 200 sure each.
+  LabelImage labels(60, 240, 1);
+  Image<std::uint8_t> confidence(60, 240, 200);
+  labels.at(0, 0) = 2;
+  labels.at(10, 10) = labels.at(10, 11) = labels.at(11, 10) = labels.at(11, 11) = kUnknown;
+  ASSERT_TRUE(write_observation(folder / "obs", panorama_setup(), labels, 0.0, confidence));
+  const Result<Observation> observation = read_observation(folder / "obs", kProfile);
+  ASSERT_TRUE(observation) << observation.error().message;
+  EXPECT_EQ(observation->confidence.at(0, 0), 150);
+  EXPECT_EQ(observation->confidence.at(1, 1), 200);
+  EXPECT_EQ(observation->confidence.at(5, 5), 0);
+  // Written anew without, none is left behind.
+  ASSERT_TRUE(write_observation(folder / "obs", panorama_setup(), labels, 0.0));
+  EXPECT_TRUE(read_observation(folder / "obs", kProfile)->confidence.empty());
+}
+
+TEST(ObservationFolderTest, AConfidenceOfAnotherSizeIsAnError) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_observation(folder / "obs", panorama_setup(), striped_labels(), 0.0));
+  ASSERT_TRUE(write_png(folder / "obs/confidence.png", Image<std::uint8_t>(30, 119, 1)));
+  EXPECT_THAT(read_observation(folder / "obs", kProfile).error().message,
+              HasSubstr("119 x 30 pixels, expected the 120 x 30 of labels.png"));
+}
+
 }  // namespace
 }  // namespace semview::io

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// An observation as a folder: `observation.yaml`, `labels.png`. See docs/formats/observation.md.
+/// An observation as a folder: `observation.yaml`, `labels.png`, `confidence.png`. See
+/// docs/formats/observation.md.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -23,7 +25,12 @@ struct ObservationSetup {
 /// @errors kInvalidArgument with file and line.
 Result<ObservationSetup> parse_observation_setup(const YamlNode& document);
 
-/// The same keys as text that `parse_observation_setup` reads back.
+/// The keys `format`, `panorama` or `pinhole`, and `base_from_camera` alone: of a run log whose
+/// images have not been labelled.
+/// @errors kInvalidArgument with file and line.
+Result<ObservationCamera> parse_observation_camera(const YamlNode& document);
+
+/// The keys of a setup as text that `parse_observation_setup` reads back.
 std::string format_observation_setup(const ObservationSetup& setup);
 
 /// Reads the label image `path` (8-bit ids, 255 = unknown) and resamples it to `profile`.
@@ -39,11 +46,13 @@ Result<Observation> read_labels(const std::filesystem::path& path,
 Result<Observation> read_observation(const std::filesystem::path& directory,
                                      const PanoramaCamera& profile);
 
-/// Writes an observation folder; `labels` are the camera's own pixels, not resampled.
+/// Writes an observation folder; `labels` are the camera's own pixels, not resampled, and
+/// `confidence` is of their size, or empty.
 /// @errors kInvalidArgument: labels of another size than a pinhole's; kUnavailable: cannot write.
 Status write_observation(const std::filesystem::path& directory,
                          const ObservationSetup& setup,
                          const LabelImage& labels,
-                         double stamp_s);
+                         double stamp_s,
+                         const Image<std::uint8_t>& confidence = {});
 
 }  // namespace semview::io

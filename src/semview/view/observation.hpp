@@ -2,6 +2,8 @@
 /// What a robot's camera saw, in labels, in the shape of a view profile.
 #pragma once
 
+#include <cstdint>
+
 #include "semview/geometry/pose2.hpp"
 #include "semview/semantics/class_table.hpp"
 #include "semview/view/column_view.hpp"
@@ -18,6 +20,9 @@ struct Observation {
   /// Where the camera stands on the robot: yaw 0, since `labels` are turned to the heading. A robot
   /// at `map_from_base` is scored at `map_from_base * base_from_eye`.
   Pose2 base_from_eye = {};
+  /// How sure the network was of each label, 255 for certain; empty where nobody said. No score
+  /// uses it yet.
+  Image<std::uint8_t> confidence = {};
 };
 
 }  // namespace semview

@@ -199,6 +199,39 @@ LabelImage resample_from(const LabelImage& labels,
   return resampled;
 }
 
+template <typename Camera>
+Image<std::uint8_t> resample_confidence_from(const Image<std::uint8_t>& confidence,
+                                             const LabelImage& labels,
+                                             const Camera& camera,
+                                             const PanoramaCamera& profile,
+                                             const LabelImage& resampled) {
+  const std::vector<std::int32_t> targets = targets_of(camera, profile);
+  std::vector<std::uint32_t> sums(resampled.pixels().size());
+  std::vector<std::uint32_t> counts(resampled.pixels().size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (targets[i] == kNowhere) continue;
+    const auto target = static_cast<std::size_t>(targets[i]);
+    ++counts[target];
+    if (seen(labels.pixels()[i]) == resampled.pixels()[target]) {
+      sums[target] += confidence.pixels()[i];
+    }
+  }
+  Image<std::uint8_t> sure(profile.rows, profile.columns, 0);
+  std::size_t t = 0;
+  for (int row = 0; row < profile.rows; ++row) {
+    for (int column = 0; column < profile.columns; ++column, ++t) {
+      if (resampled.at(row, column) == kUnknown) continue;
+      if (counts[t] > 0) {
+        sure.at(row, column) = static_cast<std::uint8_t>((sums[t] + counts[t] / 2) / counts[t]);
+      } else if (const std::int32_t nearest = source_at(camera, profile, row, column);
+                 nearest != kNowhere) {
+        sure.at(row, column) = confidence.pixels()[static_cast<std::size_t>(nearest)];
+      }
+    }
+  }
+  return sure;
+}
+
 int rows_of(const PartialPanorama& camera) { return camera.rows; }
 int rows_of(const MountedPinhole& camera) { return camera.camera.rows; }
 int columns_of(const PartialPanorama& camera) { return camera.columns; }
@@ -226,6 +259,21 @@ LabelImage resample(const LabelImage& labels,
       [&](const auto& kind) {
         SEMVIEW_CHECK(labels.rows() == rows_of(kind) && labels.columns() == columns_of(kind));
         return resample_from(labels, kind, profile);
+      },
+      camera);
+}
+
+Image<std::uint8_t> resample_confidence(const Image<std::uint8_t>& confidence,
+                                        const LabelImage& labels,
+                                        const ObservationCamera& camera,
+                                        const PanoramaCamera& profile,
+                                        const LabelImage& resampled) {
+  SEMVIEW_CHECK(confidence.rows() == labels.rows() && confidence.columns() == labels.columns());
+  SEMVIEW_CHECK(resampled.rows() == profile.rows && resampled.columns() == profile.columns);
+  return std::visit(
+      [&](const auto& kind) {
+        SEMVIEW_CHECK(labels.rows() == rows_of(kind) && labels.columns() == columns_of(kind));
+        return resample_confidence_from(confidence, labels, kind, profile, resampled);
       },
       camera);
 }

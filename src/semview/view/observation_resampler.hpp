@@ -2,6 +2,7 @@
 /// From a camera's label image to the shape of a view profile.
 #pragma once
 
+#include <cstdint>
 #include <variant>
 
 #include "semview/core/result.hpp"
@@ -57,5 +58,16 @@ Status validate(const ObservationCamera& camera);
 LabelImage resample(const LabelImage& labels,
                     const ObservationCamera& camera,
                     const PanoramaCamera& profile);
+
+/// How sure one is of the labels that `resample` gives: the confidence of the source pixels of that
+/// class, summed, over the number of all source pixels that fall into the profile pixel; 0 where
+/// the label is unknown.
+/// @param confidence  Of each of `labels`, 255 for certain; of their size.
+/// @param resampled  What `resample` made of `labels`.
+Image<std::uint8_t> resample_confidence(const Image<std::uint8_t>& confidence,
+                                        const LabelImage& labels,
+                                        const ObservationCamera& camera,
+                                        const PanoramaCamera& profile,
+                                        const LabelImage& resampled);
 
 }  // namespace semview
