@@ -14,6 +14,7 @@ build=(
   cppzmq-dev libzmq3-dev libprotobuf-dev protobuf-compiler
   liblmdb-dev libzstd-dev libxxhash-dev libhwy-dev
   libyaml-cpp-dev libpng-dev libjpeg-dev libcairo2-dev
+  libopencv-core-dev libopencv-imgproc-dev libopencv-dnn-dev
   libspdlog-dev libfmt-dev libcli11-dev libexpected-dev
   ca-certificates
 )
@@ -23,11 +24,11 @@ test=(
   python3 python3-numpy python3-zmq python3-protobuf
   clang-format git
 )
-# Open3D brings fifty libraries; without it, or OpenCV, `semview bench` says so in its rows.
-bench=(libbenchmark-dev libopen3d-dev libopencv-imgproc-dev python3 python3-numpy)
+# Open3D brings fifty libraries; without it `semview bench` says so in its rows.
+bench=(libbenchmark-dev libopen3d-dev python3 python3-numpy)
 runtime=(
   libembree3-3 libzmq5 libprotobuf32 liblmdb0 libzstd1 libxxhash0 libhwy1
-  libyaml-cpp0.7 libpng16-16 libjpeg62-turbo libcairo2 libspdlog1.10 libfmt9
+  libyaml-cpp0.7 libpng16-16 libjpeg62-turbo libcairo2 libopencv-dnn406 libspdlog1.10 libfmt9
   ca-certificates
 )
 

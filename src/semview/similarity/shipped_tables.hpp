@@ -8,6 +8,7 @@
 namespace semview::similarity {
 
 extern const std::string_view kAde20k150Names;  ///< vocabularies/ade20k150/names.tsv
+extern const std::string_view kAde20k32Names;   ///< vocabularies/ade20k32/names.tsv
 extern const std::string_view kSynonyms;        ///< vocabularies/synonyms.tsv
 
 }  // namespace semview::similarity

@@ -68,8 +68,10 @@ Result<Vocabulary> parse_vocabulary(std::string_view text, std::string_view name
 
 Result<Vocabulary> shipped_vocabulary(std::string_view id) {
   if (id == "ade20k150") return parse_vocabulary(kAde20k150Names, "ade20k150");
-  return fail(ErrorCode::kNotFound,
-              fmt::format("vocabulary {}: not built in, expected ade20k150 or a file", id));
+  if (id == "ade20k32") return parse_vocabulary(kAde20k32Names, "ade20k32");
+  return fail(
+      ErrorCode::kNotFound,
+      fmt::format("vocabulary {}: not built in, expected ade20k150, ade20k32 or a file", id));
 }
 
 Result<Vocabulary> load_vocabulary(const std::string& id_or_file) {

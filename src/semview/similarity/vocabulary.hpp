@@ -31,7 +31,7 @@ ClassTable class_table(const Vocabulary& vocabulary);
 /// characters, ',' or ';'; no class, or more than 254.
 Result<Vocabulary> parse_vocabulary(std::string_view text, std::string_view name);
 
-/// A vocabulary built into the program: `ade20k150`.
+/// A vocabulary built into the program: `ade20k150`, or `ade20k32` of the shipped network.
 /// @errors kNotFound: none of that id.
 Result<Vocabulary> shipped_vocabulary(std::string_view id);
 
