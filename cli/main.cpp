@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     semview::cli::add_weights_verb(app, exit_code);
     semview::cli::add_view_verb(app, exit_code);
     semview::cli::add_evaluate_verb(app, exit_code);
+    semview::cli::add_observe_verb(app, exit_code);
     semview::cli::add_score_verb(app, exit_code);
     semview::cli::add_heatmap_verb(app, exit_code);
     semview::cli::add_localize_verb(app, exit_code);

@@ -77,7 +77,7 @@ MODULES = {
     "client/lib": Module(VIEW | {"similarity", "observation", "protocol"}, {"ZeroMQ"}),
     "client/load": Module(VIEW | {"similarity", "protocol", "client/lib"}, {"ZeroMQ"}),
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
-    "cli": Module(SERVICE | {"service", "picture", "localization", "observation", "simulation",
+    "cli": Module(SERVICE | {"service", "segmentation", "picture", "localization", "observation", "simulation",
                              "evaluation", "benchmark", "server", "client/lib", "client/load",
                              "client/robot"},
                   {"CLI11", "nlohmann-json"}),

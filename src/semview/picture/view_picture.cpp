@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "semview/core/check.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/picture/canvas.hpp"
 #include "semview/picture/colour_map.hpp"
@@ -83,6 +84,12 @@ void draw_frame(cairo_t* cr,
   if (options.axes) draw_axes(cr, layout, *options.axes);
 }
 
+/// Half of either colour.
+Rgb mixed(const Rgb& a, const Rgb& b) {
+  const auto half = [](int x, int y) { return static_cast<unsigned char>((x + y) / 2); };
+  return {half(a.r, b.r), half(a.g, b.g), half(a.b, b.b)};
+}
+
 std::string share_text(std::int64_t count, std::size_t total) {
   const double percent = 100.0 * static_cast<double>(count) / static_cast<double>(total);
   return percent < 0.1 ? "<0.1 %" : fmt::format("{:.{}f} %", percent, percent < 10.0 ? 1 : 0);
@@ -127,6 +134,34 @@ RgbImage draw_labels(const LabelImage& labels,
   return draw_pixels(size, [&](cairo_t* cr) {
     draw_frame(cr, layout, image, options);
     draw_legend(cr, legend, layout.image_x, layout.below_y + 16.0);
+  });
+}
+
+RgbImage draw_overlay(const RgbImage& photo,
+                      const LabelImage& labels,
+                      const ClassTable& classes,
+                      const ClassPalette& palette,
+                      const ViewPictureOptions& options) {
+  SEMVIEW_CHECK(photo.rows() == labels.rows() && photo.columns() == labels.columns());
+  if (labels.empty()) return {};
+  RgbImage coloured(photo.rows(), photo.columns());
+  for (std::size_t i = 0; i < coloured.pixels().size(); ++i) {
+    coloured.pixels()[i] = mixed(photo.pixels()[i], palette[labels.pixels()[i]]);
+  }
+  const Layout above = lay_out(labels.rows(), labels.columns(), options);
+  Layout below = above;
+  below.image_y = above.below_y + 12.0;
+  below.below_y = below.image_y + (above.below_y - above.image_y);
+  ViewPictureOptions untitled = options;
+  untitled.title.clear();
+  std::vector<LegendItem> legend = legend_of(labels, classes, palette);
+  const double legend_height = arrange(legend, below.image_width);
+  const Size size{below.image_x + below.image_width + kMargin,
+                  below.below_y + 16.0 + legend_height + kMargin - 4.0};
+  return draw_pixels(size, [&](cairo_t* cr) {
+    draw_frame(cr, above, photo, options);
+    draw_frame(cr, below, coloured, untitled);
+    draw_legend(cr, legend, below.image_x, below.below_y + 16.0);
   });
 }
 

@@ -26,6 +26,15 @@ RgbImage draw_labels(const LabelImage& labels,
                      const ClassPalette& palette,
                      const ViewPictureOptions& options = {});
 
+/// A photograph, and below it the same with the classes' colours over it and a legend as of
+/// `draw_labels`. Unknown pixels are greyed.
+/// @param photo  of the size of `labels`
+RgbImage draw_overlay(const RgbImage& photo,
+                      const LabelImage& labels,
+                      const ClassTable& classes,
+                      const ClassPalette& palette,
+                      const ViewPictureOptions& options = {});
+
 /// Distances with a colour bar in metres; near is bright, +∞ is drawn in grey. `quantity` stands
 /// beside the bar: "range" for panoramas, "depth" for pinhole images.
 RgbImage draw_ranges(const RangeImage& ranges_m,
