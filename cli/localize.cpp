@@ -21,6 +21,7 @@
 #include "localize_options.hpp"
 #include "localize_scorer.hpp"
 #include "localize_start.hpp"
+#include "log_images.hpp"
 #include "semview/core/log.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/run_log.hpp"
@@ -242,7 +243,9 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
   SEMVIEW_TRY(const auto motion, motion_model(options));
   SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   SEMVIEW_TRY(const io::RunLog log, io::read_run_log(options.log));
-  SEMVIEW_TRY(const Scorer scorer, open_scorer(options, log.setup.classes));
+  SEMVIEW_TRY(const auto images, open_log_images(log, options.segment));
+  SEMVIEW_TRY(const Scorer scorer,
+              open_scorer(options, images ? images->classes() : log.setup.classes));
   SEMVIEW_TRY(localization::ParticleSet start, first_particles(options, scorer.free_cells));
 
   ask_to_stop_on_signals();
@@ -265,6 +268,11 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
     so_far.frames.push_back(report);
   };
   hooks.stopped = stop_asked;
+  if (images) {
+    hooks.observe = [&](std::size_t frame) {
+      return images->observe(frame, scorer.source->profile().camera);
+    };
+  }
   Result<robot::Drive> drive = robot::play(log, scorer.source->profile().camera, localizer, hooks);
   if (!drive) {
     return end_early(options, so_far, localizer.particles(), std::move(drive).error());

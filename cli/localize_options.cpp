@@ -136,6 +136,11 @@ void add_localize_options(CLI::App& verb, LocalizeOptions& options) {
           "Weight matrix, or `identity`: a class of the same name scores 1, every other 0 "
           "(default: the map's own weights.csv, else `identity` where the log's classes are the "
           "map's)");
+  verb.add_option("--segment",
+                  options.segment,
+                  "Label the log's images with this network: a shipped model's name, for example "
+                  "deeplab_ade20k32, or a folder with model.yaml")
+      ->type_name("MODEL");
   verb.add_option("-o,--out", options.output, "Estimated trajectory, TUM text")
       ->type_name("FILE.tum")
       ->required();

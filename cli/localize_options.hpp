@@ -22,6 +22,7 @@ struct LocalizeOptions {
   std::string server;  ///< empty: in this process
   std::string map;     ///< a folder or file in this process, an id with --server
   std::string weights;
+  std::string segment;  ///< the network that labels the log's images; empty: the log has labels
   std::string output;
   std::uint64_t seed = 1;
   std::size_t particles = 0;  ///< 0: 500, or 2000 with --global

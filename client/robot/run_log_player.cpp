@@ -28,7 +28,9 @@ Result<Drive> play(const io::RunLog& log,
       return fail(ErrorCode::kCancelled,
                   fmt::format("stopped before frame {} of {}", i + 1, log.frames.size()));
     }
-    if (!log.frames[i].labels.empty()) {
+    if (hooks.observe) {
+      SEMVIEW_TRY(frame.observation, hooks.observe(i));
+    } else if (!log.frames[i].labels.empty()) {
       SEMVIEW_TRY(frame.observation, io::read_frame(log, i, camera));
     }
     Result<FrameReport> report = localizer.advance(frame);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "client/robot/localizer.hpp"
@@ -17,6 +18,9 @@ namespace semview::robot {
 struct PlayerHooks {
   /// Called before the frame of this stamp is played, to keep the log's pace; a robot's clock.
   std::function<void(double stamp_s)> wait_until = {};
+  /// Makes the observation of the frame of this index, in place of reading the log's labels; none
+  /// where the camera gave nothing.
+  std::function<Result<std::optional<Observation>>(std::size_t index)> observe = {};
   /// Asked before each frame; true ends the run with kCancelled.
   std::function<bool()> stopped = {};
   /// Called after each frame; `done` of `total` frames.

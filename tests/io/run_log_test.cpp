@@ -113,5 +113,47 @@ TEST(RunLogTest, AFrameWithoutLabelsIsNotFound) {
   EXPECT_EQ(read_frame(*log, 0, kProfile).error().code, ErrorCode::kNotFound);
 }
 
+/// A log of images: `yaml` is its log.yaml, `images` the image column of its one frame.
+Result<RunLog> read_image_log(const TemporaryFolder& folder,
+                              const std::string& yaml,
+                              const std::string& images,
+                              const std::string& labels = "") {
+  write_log(folder / "log");
+  folder.write("log/frames.csv",
+               "timestamp,labels,depth,image\n0.5," + labels + ",," + images + "\n");
+  folder.write("log/log.yaml", yaml);
+  return read_run_log(folder / "log");
+}
+
+TEST(ImageLogTest, ALogWithoutLabelsNeedsNoClasses) {
+  const TemporaryFolder folder;
+  const std::string yaml =
+      "format: 1\npinhole: {width: 4, height: 3, fx: 2, fy: 2, cx: 2, cy: 1.5}\n";
+  const Result<RunLog> log = read_image_log(folder, yaml, "images/a.jpg");
+  ASSERT_TRUE(log) << log.error().message;
+  EXPECT_EQ(std::get<MountedPinhole>(log->setup.camera).camera.columns, 4);
+  EXPECT_EQ(log->frames[0].images(), std::vector<std::string>{"images/a.jpg"});
+  const TemporaryFolder labelled;
+  EXPECT_THAT(read_image_log(labelled, yaml, "", "labels/000000.png").error().message,
+              HasSubstr("'classes' is missing"));
+}
+
+TEST(ImageLogTest, ARigNamesWhatTookSeveralImages) {
+  const TemporaryFolder folder;
+  const std::string yaml = "format: 1\ncamera_rig: rig.yaml\n";
+  const Result<RunLog> log = read_image_log(folder, yaml, "a.jpg;images/b.png");
+  ASSERT_TRUE(log) << log.error().message;
+  EXPECT_EQ(log->camera_rig, folder / "log/rig.yaml");
+  EXPECT_EQ(log->frames[0].images(), (std::vector<std::string>{"a.jpg", "images/b.png"}));
+  const auto error = [](const std::string& text, const char* images, const char* labels = "") {
+    const TemporaryFolder other;
+    return read_image_log(other, text, images, labels).error().message;
+  };
+  EXPECT_THAT(error(yaml, "a.jpg;../b.jpg"), HasSubstr("'../b.jpg' is not inside"));
+  EXPECT_THAT(error("format: 1\ncamera_rig: /rig.yaml\n", "a"), HasSubstr("log.yaml:2: file"));
+  EXPECT_THAT(error(yaml + "classes: [a]\n", "a"), HasSubstr("'classes' beside 'camera_rig'"));
+  EXPECT_THAT(error(yaml, "a", "labels/000000.png"), HasSubstr("log.yaml:2: frames with labels"));
+}
+
 }  // namespace
 }  // namespace semview::io

@@ -47,10 +47,12 @@ Result<FrameFiles> parse_frame(std::string_view line, const std::string& where) 
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{}: timestamp '{}' is not a number of seconds", where, cells[0]));
   }
-  for (const std::string* name : {&frame.labels, &frame.depth, &frame.image}) {
-    if (!is_inside(*name)) {
+  std::vector<std::string> names = frame.images();
+  names.insert(names.end(), {frame.labels, frame.depth});
+  for (const std::string& name : names) {
+    if (!is_inside(name)) {
       return fail(ErrorCode::kInvalidArgument,
-                  fmt::format("{}: file '{}' is not inside the log's folder", where, *name));
+                  fmt::format("{}: file '{}' is not inside the log's folder", where, name));
     }
   }
   return frame;
@@ -87,7 +89,50 @@ Result<std::vector<FrameFiles>> read_frames(const std::filesystem::path& path) {
   return frames;
 }
 
+/// What took the frames, and the classes of their labels if they have any.
+Status read_setup(const YamlNode& document, RunLog& log) {
+  SEMVIEW_TRY_STATUS(document.expect_keys(
+      {"format", "note", "classes", "panorama", "pinhole", "base_from_camera", "camera_rig"}));
+  const bool labelled = std::ranges::any_of(
+      log.frames, [](const FrameFiles& frame) { return !frame.labels.empty(); });
+  const std::optional<YamlNode> rig = document.find("camera_rig");
+  if (!rig && (labelled || document.find("classes"))) {
+    SEMVIEW_TRY(log.setup, parse_observation_setup(document));
+    return {};
+  }
+  if (!rig) {
+    SEMVIEW_TRY(log.setup.camera, parse_observation_camera(document));
+    return {};
+  }
+  SEMVIEW_TRY(const std::string name, rig->text());
+  if (!is_inside(name)) {
+    return rig->error(fmt::format("file '{}' is not inside the log's folder", name));
+  }
+  if (labelled) {
+    return rig->error("frames with labels have one camera: expected 'panorama' or 'pinhole'");
+  }
+  for (const char* key : {"panorama", "pinhole", "base_from_camera", "classes"}) {
+    if (const std::optional<YamlNode> other = document.find(key)) {
+      return other->error(
+          fmt::format("'{}' beside 'camera_rig', which says what took the images", key));
+    }
+  }
+  log.camera_rig = log.directory / name;
+  return {};
+}
+
 }  // namespace
+
+std::vector<std::string> FrameFiles::images() const {
+  std::vector<std::string> files;
+  std::string_view rest = image;
+  while (!rest.empty()) {
+    const std::string_view file = rest.substr(0, rest.find(';'));
+    rest.remove_prefix(std::min(file.size() + 1, rest.size()));
+    if (!file.empty()) files.emplace_back(file);
+  }
+  return files;
+}
 
 Result<RunLog> read_run_log(const std::filesystem::path& directory) {
   std::error_code ignored;
@@ -104,10 +149,8 @@ Result<RunLog> read_run_log(const std::filesystem::path& directory) {
   RunLog log;
   log.directory = directory;
   SEMVIEW_TRY(const YamlNode document, read_yaml(directory / "log.yaml"));
-  SEMVIEW_TRY_STATUS(document.expect_keys(
-      {"format", "note", "classes", "panorama", "pinhole", "base_from_camera"}));
-  SEMVIEW_TRY(log.setup, parse_observation_setup(document));
   SEMVIEW_TRY(log.frames, read_frames(directory / "frames.csv"));
+  SEMVIEW_TRY_STATUS(read_setup(document, log));
   SEMVIEW_TRY(log.odometry, read_tum(directory / "odometry.txt"));
   if (std::filesystem::exists(directory / "groundtruth.txt", ignored)) {
     SEMVIEW_TRY(log.groundtruth, read_tum(directory / "groundtruth.txt"));

@@ -18,13 +18,19 @@ struct FrameFiles {
   double stamp_s = 0.0;
   std::string labels;
   std::string depth;
-  std::string image;
+  std::string image;  ///< of a rig of several cameras their images in its order, `;` between them
+
+  /// The files of `image`.
+  std::vector<std::string> images() const;
 };
 
 struct RunLog {
   std::filesystem::path directory;
+  /// Without classes where no frame has labels; without meaning where there is a `camera_rig`.
   ObservationSetup setup;
-  std::vector<StampedPose2> odometry;                    ///< odom_from_base
+  std::optional<std::filesystem::path>
+      camera_rig;                      ///< what took the images, of a log without labels
+  std::vector<StampedPose2> odometry;  ///< odom_from_base
   std::optional<std::vector<StampedPose2>> groundtruth;  ///< map_from_base
   std::vector<FrameFiles> frames;                        ///< stamps increase
 };

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Observations of a run log that holds camera images.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "semview/core/result.hpp"
+#include "semview/io/run_log.hpp"
+#include "semview/segmentation/camera_rig.hpp"
+#include "semview/segmentation/segmenter.hpp"
+#include "semview/view/observation.hpp"
+
+namespace semview::cli {
+
+/// Labels the images of `log`, which must outlive it.
+class LogImages {
+ public:
+  LogImages(const io::RunLog& log,
+            segmentation::CameraRig rig,
+            std::unique_ptr<segmentation::Segmenter> segmenter)
+      : log_(log), rig_(std::move(rig)), segmenter_(std::move(segmenter)) {}
+
+  const ClassTable& classes() const { return segmenter_->classes(); }
+
+  /// What the cameras saw at a frame; none of a frame without an image.
+  Result<std::optional<Observation>> observe(std::size_t frame,
+                                             const PanoramaCamera& profile) const;
+
+ private:
+  const io::RunLog& log_;
+  segmentation::CameraRig rig_;
+  std::unique_ptr<segmentation::Segmenter> segmenter_;
+};
+
+/// The images of `log`, labelled by the network `model`; none if that is empty.
+/// @errors kInvalidArgument: a model is named for a log without images, or none for one that has
+/// nothing else; those of the network and of the log's camera rig.
+Result<std::optional<LogImages>> open_log_images(const io::RunLog& log, const std::string& model);
+
+}  // namespace semview::cli
