@@ -16,6 +16,7 @@
 #include "semview/io/png.hpp"
 #include "semview/io/range_png.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/picture/shaded_picture.hpp"
 #include "semview/picture/view_picture.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
@@ -34,7 +35,7 @@ struct Options {
   std::string pose;
   std::string pinhole;
   std::string affine;
-  std::string labels_file, range_file, image_file, range_image_file;
+  std::string labels_file, range_file, image_file, range_image_file, photo_file;
   bool json = false;
 };
 
@@ -165,6 +166,19 @@ Status check_server_options(const CLI::App& verb) {
   return {};
 }
 
+/// The rays of the view's pixels: x ahead, z up.
+Result<picture::RayOfPixel> rays_of(const Options& options, const View& view) {
+  if (view.panorama) {
+    return picture::RayOfPixel(
+        [camera = *view.panorama](int row, int column) { return camera.direction(row, column); });
+  }
+  SEMVIEW_TRY(const PinholeCamera camera, read_pinhole(options.pinhole));
+  return picture::RayOfPixel([camera](int row, int column) {
+    const Eigen::Vector3d d = camera.direction(row, column);
+    return Eigen::Vector3d(d.z(), -d.x(), -d.y());
+  });
+}
+
 Status write_files(const Options& options, const Pose2& pose, const Seen& seen) {
   const View& view = seen.view;
   if (!options.labels_file.empty()) {
@@ -172,6 +186,12 @@ Status write_files(const Options& options, const Pose2& pose, const Seen& seen) 
   }
   if (!options.range_file.empty()) {
     SEMVIEW_TRY_STATUS(io::write_png(options.range_file, io::millimetres(view.distances_m)));
+  }
+  if (!options.photo_file.empty()) {
+    SEMVIEW_TRY(const picture::RayOfPixel ray, rays_of(options, view));
+    SEMVIEW_TRY_STATUS(
+        io::write_png(options.photo_file,
+                      picture::draw_shaded(view.labels, view.distances_m, seen.map.classes, ray)));
   }
   picture::ViewPictureOptions picture;
   picture.title = fmt::format(
@@ -197,7 +217,8 @@ Status show(const CLI::App& verb, const Options& options) {
   for (const std::string* file : {&options.labels_file,
                                   &options.range_file,
                                   &options.image_file,
-                                  &options.range_image_file}) {
+                                  &options.range_image_file,
+                                  &options.photo_file}) {
     if (!file->empty()) SEMVIEW_TRY_STATUS(io::check_output_png(*file));
   }
   SEMVIEW_TRY(const Seen seen,
@@ -248,6 +269,10 @@ void add_view_verb(CLI::App& app, int& exit_code) {
                    "16-bit PNG in mm (depth for --pinhole); 0 = nothing hit, 65535 = that or more");
   verb->add_option("--image", options->image_file, "PNG in colours with a legend");
   verb->add_option("--range-image", options->range_image_file, "PNG of ranges with a colour bar");
+  verb->add_option("--photo",
+                   options->photo_file,
+                   "PNG as a camera might have taken it, in plain materials and light: to try "
+                   "`semview observe` on");
   verb->add_flag("--json", options->json, "Print pose, eye, cast time and class shares as JSON");
   verb->footer(
       "Example: semview view maps/duplex_level1 --pose 2,-3,90 --image view.png --range mm.png\n"
