@@ -46,7 +46,7 @@ Measured on {plan}, 360 × 90 pixels, one thread:
 
 - **Disk** is the payload of the records as coded; keys, checksums and pages of the store come on top
   ([cache record](formats/cache_record.md)).
-- **Cast** is casting alone; coding and storing a view add some 25 µs ([RESULTS.md](../bench/RESULTS.md)).
+- **Cast** is casting alone; coding and storing a view add some 14 µs of a thread's time ([RESULTS.md](../bench/RESULTS.md)).
 - **Memory** is what the scorer reads without decoding. A server needs the part that its robots are on: the tier forgets
   what was not used for longest, and a view that is missing is cast again in the time of the first row.
 - **One image against every cell and heading** is the dense posterior, views in memory, for a robot that knows nothing: the
