@@ -29,6 +29,8 @@ Status as_option(const Status& status) {
       {"resample_threshold", "--resample-threshold"},
       {"gain", "--compass-gain"},
       {"gate_rad", "--compass-gate"},
+      {"sigma_rad", "--combined-sigma"},
+      {"lost_probability", "--combined-lost"},
       {"sigma_m", "--sigma"},
       {"heading_sigma_rad", "--heading-sigma"}};
   const std::string& field = status.error().field;
@@ -40,6 +42,14 @@ Status as_option(const Status& status) {
 void group_since(CLI::App& verb, std::size_t first, const std::string& heading) {
   const std::vector<CLI::Option*> all = verb.get_options();
   for (std::size_t i = first; i < all.size(); ++i) all[i]->group(heading);
+}
+
+localization::HeadingStrategy heading_strategy(const LocalizeOptions& options) {
+  using localization::HeadingStrategy;
+  if (options.heading == "combined") return HeadingStrategy::kCombined;
+  const bool compass =
+      options.heading.empty() ? options.global == "sampled" : options.heading == "compass";
+  return compass ? HeadingStrategy::kCompass : HeadingStrategy::kOdometry;
 }
 
 void add_start_options(CLI::App& verb, LocalizeOptions& options) {
@@ -96,17 +106,30 @@ void add_filter_options(CLI::App& verb, LocalizeOptions& options) {
   verb.add_option(
           "--heading",
           options.heading,
-          "Heading from `odometry`, or from the visual `compass`, the best of all 120 headings "
-          "(default: odometry; compass with --global sampled)")
-      ->check(CLI::IsMember({"odometry", "compass"}));
-  verb.add_option("--compass-gain",
-                  options.compass_gain,
-                  "Share of a small difference by which the compass corrects the odometry heading")
-      ->capture_default_str();
-  options.compass_gate_deg = deg_from_rad(localization::CompassConfig{}.gate_rad);
+          "Heading from `odometry`, from the visual `compass`, the best of all 120 headings, or "
+          "`combined`: the best of them that is also near the one by odometry (default: odometry; "
+          "compass with --global sampled)")
+      ->check(CLI::IsMember({"odometry", "compass", "combined"}));
+  const localization::CompassConfig compass;
+  verb.add_option(
+      "--compass-gain",
+      options.compass_gain,
+      fmt::format("Share of a small difference by which the compass corrects the odometry heading "
+                  "(default {}, 1 with --heading combined)",
+                  compass.gain));
   verb.add_option("--compass-gate",
                   options.compass_gate_deg,
-                  "Differences above this many degrees correct nothing")
+                  fmt::format("Differences above this many degrees correct nothing (default {:g}, "
+                              "180 with --heading combined)",
+                              deg_from_rad(compass.gate_rad)));
+  options.combined_sigma_deg = deg_from_rad(observation::CombinedHeadingConfig{}.sigma_rad);
+  verb.add_option("--combined-sigma",
+                  options.combined_sigma_deg,
+                  "--heading combined: sigma of the heading by odometry in degrees")
+      ->capture_default_str();
+  verb.add_option("--combined-lost",
+                  options.combined_lost,
+                  "--heading combined: probability that the heading by odometry means nothing")
       ->capture_default_str();
   add_weighting_options(verb, options.weighting);
   verb.add_option("--resample-threshold",
@@ -192,13 +215,17 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
 
 Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) {
   robot::LocalizerConfig config;
-  const bool compass =
-      options.heading.empty() ? options.global == "sampled" : options.heading == "compass";
-  config.heading =
-      compass ? localization::HeadingStrategy::kCompass : localization::HeadingStrategy::kOdometry;
+  config.heading = heading_strategy(options);
   config.filter.resample_threshold = options.resample_threshold;
-  config.filter.compass.gain = options.compass_gain;
-  config.filter.compass.gate_rad = rad_from_deg(options.compass_gate_deg);
+  if (config.heading == localization::HeadingStrategy::kCombined) {
+    // The choice has looked at odometry already: it is the particle's yaw from then on.
+    config.filter.compass = {1.0, kPi};
+  }
+  if (options.compass_gain) config.filter.compass.gain = *options.compass_gain;
+  if (options.compass_gate_deg) {
+    config.filter.compass.gate_rad = rad_from_deg(*options.compass_gate_deg);
+  }
+  config.combined = {rad_from_deg(options.combined_sigma_deg), options.combined_lost};
   config.weighting = weighting_of(options.weighting);
   config.estimate = options.estimate == "best"   ? localization::EstimateKind::kHighestWeight
                     : options.estimate == "mean" ? localization::EstimateKind::kWeightedMean

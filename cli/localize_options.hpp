@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "client/robot/localizer.hpp"
@@ -37,8 +38,10 @@ struct LocalizeOptions {
   WeightingOptions weighting = {};
   std::string estimate = "mode";
   double resample_threshold = localization::ParticleFilterConfig{}.resample_threshold;
-  double compass_gain = localization::CompassConfig{}.gain;
-  double compass_gate_deg = 0.0;
+  std::optional<double> compass_gain = {};      ///< none: as `--heading` has it
+  std::optional<double> compass_gate_deg = {};  ///< none: as `--heading` has it
+  double combined_sigma_deg = 0.0;
+  double combined_lost = observation::CombinedHeadingConfig{}.lost_probability;
   double rate = 0.0;
   double timeout_s = 5.0;
   bool json = false;

@@ -37,6 +37,7 @@ FrameReport not_scored(FrameState state, std::string reason) {
 
 Status validate(const LocalizerConfig& config) {
   SEMVIEW_TRY_STATUS(validate(config.filter));
+  SEMVIEW_TRY_STATUS(validate(config.combined));
   return validate(config.weighting);
 }
 
@@ -61,7 +62,7 @@ Localizer::Localizer(const LocalizerConfig& config,
                      std::uint64_t seed)
     : config_(config),
       source_(source),
-      model_(source, config.heading, config.weighting),
+      model_(source, config.heading, config.weighting, config.combined),
       filter_(config.filter, std::move(motion), std::move(start), seed),
       seed_(seed) {}
 

@@ -14,6 +14,7 @@
 #include "semview/localization/motion_model.hpp"
 #include "semview/localization/particle_filter.hpp"
 #include "semview/localization/pose_estimate.hpp"
+#include "semview/observation/combined_heading.hpp"
 #include "semview/observation/dense_posterior.hpp"
 #include "semview/observation/score_source_observation_model.hpp"
 #include "semview/observation/similarity_weighting.hpp"
@@ -26,6 +27,7 @@ struct LocalizerConfig {
   localization::HeadingStrategy heading = localization::HeadingStrategy::kOdometry;
   localization::ParticleFilterConfig filter = {};
   observation::SimilarityWeightingConfig weighting = {};
+  observation::CombinedHeadingConfig combined = {};  ///< of HeadingStrategy::kCombined
   localization::EstimateKind estimate = localization::EstimateKind::kStrongestMode;
   localization::ModeConfig mode = {};
 };

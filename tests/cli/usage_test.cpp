@@ -111,6 +111,19 @@ TEST_F(UsageTest, OptionsWithoutEffectAreRefused) {
                "--threads: Value -1 not in range");
 }
 
+TEST_F(UsageTest, WrongParametersOfTheFilterAreNamedByTheirOption) {
+  const Arguments localize{"localize", "--log", "l", "--map", kMap, "--global", "-o", "e.tum"};
+  const auto expect = [&](const Arguments& more, const std::string& words) {
+    Arguments all = localize;
+    all.insert(all.end(), more.begin(), more.end());
+    expect_usage(all, words);
+  };
+  expect({"--heading", "stars"}, "--heading");
+  expect({"--heading", "combined", "--combined-sigma", "0"}, "--combined-sigma");
+  expect({"--heading", "combined", "--combined-lost", "2"}, "--combined-lost");
+  expect({"--compass-gain", "2"}, "--compass-gain");
+}
+
 TEST_F(UsageTest, AnOutputThatCannotBeWrittenIsToldBeforeTheWork) {
   // The map is not there either: the output is looked at first.
   const std::string map = file("no_map");

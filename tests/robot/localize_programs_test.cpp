@@ -119,7 +119,7 @@ class LocalizeProgramsTest : public ::testing::Test {
 TEST_F(LocalizeProgramsTest, InProcessAndRemoteWriteTheSameBytesForAnyNumberOfThreads) {
   const Drive drive = simulate("log", 1, 8);
   const auto server = serve();
-  for (const char* heading : {"odometry", "compass"}) {
+  for (const char* heading : {"odometry", "compass", "combined"}) {
     for (const char* start : {"known", "sampled", "dense"}) {
       Arguments common{"localize", "--log", drive.log, "--seed", "7", "--heading", heading};
       common.insert(common.end(), {"--particles", "300", "--timeout", "60"});

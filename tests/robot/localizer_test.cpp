@@ -64,9 +64,11 @@ class Circle {
 };
 
 class LocalizerTest : public testing::TestWithParam<HeadingStrategy> {};
-INSTANTIATE_TEST_SUITE_P(BothStrategies,
+INSTANTIATE_TEST_SUITE_P(AllStrategies,
                          LocalizerTest,
-                         testing::Values(HeadingStrategy::kOdometry, HeadingStrategy::kCompass));
+                         testing::Values(HeadingStrategy::kOdometry,
+                                         HeadingStrategy::kCompass,
+                                         HeadingStrategy::kCombined));
 
 TEST_P(LocalizerTest, TracksTheRobotWhileOdometryDrifts) {
   Circle drive(GetParam());

@@ -22,6 +22,12 @@ struct MapAffine {
 
   bool is_identity() const { return *this == MapAffine{}; }
 
+  /// Within the ranges above; NaN is not.
+  bool in_range() const {
+    const auto is_scale = [](double factor) { return factor >= 0.2 && factor <= 5.0; };
+    return is_scale(a) && is_scale(b) && k >= -2.0 && k <= 2.0;
+  }
+
   /// A true unit direction turned into the drawn map and not normalised again: a ray's parameter
   /// stays the true range, and a heading stays a shift of columns.
   Eigen::Vector3d apply(const Eigen::Vector3d& direction) const {
@@ -33,15 +39,36 @@ struct MapAffine {
 /// logarithm, shears by steps.
 inline constexpr double kAffineStep = 0.02;
 
-/// The nearest distortion of the grid of `kAffineStep`, within the ranges above; the identity is on
-/// it. Equal steps give equal bits on every machine.
-inline MapAffine on_affine_grid(const MapAffine& affine) {
-  const auto scale = [](double value) {
-    const double steps = std::round(std::log(value) / kAffineStep);
-    return steps == 0.0 ? 1.0 : std::min(5.0, std::max(0.2, std::exp(steps * kAffineStep)));
+/// A distortion on the grid of `kAffineStep`, in steps from the identity: how it travels.
+struct AffineSteps {
+  int a = 0;  ///< of ln a, within ±`kMostSteps`
+  int b = 0;  ///< of ln b, within ±`kMostSteps`
+  int k = 0;  ///< within ±`kMostShearSteps`
+
+  static constexpr int kMostSteps = 80;        ///< ln 5 / 0.02, rounded down
+  static constexpr int kMostShearSteps = 100;  ///< 2 / 0.02
+
+  bool operator==(const AffineSteps&) const = default;
+};
+
+/// The nearest steps. `affine` must be in range.
+inline AffineSteps affine_steps(const MapAffine& affine) {
+  const auto steps = [](double value, int most) {
+    return std::clamp(static_cast<int>(std::lround(value / kAffineStep)), -most, most);
   };
-  const double shear = std::round(affine.k / kAffineStep) * kAffineStep;
-  return {scale(affine.a), scale(affine.b), std::min(2.0, std::max(-2.0, shear)) + 0.0};
+  return {steps(std::log(affine.a), AffineSteps::kMostSteps),
+          steps(std::log(affine.b), AffineSteps::kMostSteps),
+          steps(affine.k, AffineSteps::kMostShearSteps)};
+}
+
+inline MapAffine affine_of(const AffineSteps& steps) {
+  const auto scale = [](int count) { return count == 0 ? 1.0 : std::exp(count * kAffineStep); };
+  return {scale(steps.a), scale(steps.b), steps.k * kAffineStep};
+}
+
+/// The nearest distortion of the grid; the identity is on it. `affine` must be in range.
+inline MapAffine on_affine_grid(const MapAffine& affine) {
+  return affine_of(affine_steps(affine));
 }
 
 }  // namespace semview

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "semview/geometry/pose_grid.hpp"
+#include "semview/observation/pose_curves.hpp"
 
 namespace semview::observation {
 namespace {
@@ -19,10 +20,8 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 Status check_shape(const ScoreBatch& batch, std::size_t poses, const ScoreRequest& request) {
   const bool compass = request.mode == HeadingMode::kCompass;
-  const std::size_t curve = request.whole_curve ? poses * PoseGrid::kHeadings : 0;
-  const bool complete = batch.sums.size() == poses &&
-                        (!compass || batch.best_heading.size() == poses) &&
-                        batch.curve.size() >= curve;
+  const bool complete =
+      batch.sums.size() == poses && (!compass || batch.best_heading.size() == poses);
   if (complete && batch.weight_scale > 0 && batch.observed_pixels > 0) return {};
   return fail(ErrorCode::kInternal,
               fmt::format("the score source answered {} sums and {} headings of {} poses "
@@ -63,28 +62,35 @@ Status ScoreSourceObservationModel::set_observation(const Observation& observati
   return source_.set_observation(observation);
 }
 
-Result<ObservationWeights> ScoreSourceObservationModel::weigh(
-    std::span<const localization::Particle> particles) {
-  using localization::HeadingStrategy;
-  const bool combined = strategy_ == HeadingStrategy::kCombined;
-  const bool compass = combined || strategy_ == HeadingStrategy::kCompass;
+ScoreRequest ScoreSourceObservationModel::question(
+    std::span<const localization::Particle> particles) const {
   ScoreRequest request;
+  request.mode = strategy_ == localization::HeadingStrategy::kOdometry ? HeadingMode::kAsGiven
+                                                                       : HeadingMode::kCompass;
+  const bool distorted = std::ranges::any_of(
+      particles, [](const localization::Particle& one) { return !one.affine.is_identity(); });
   request.poses.reserve(particles.size());
   for (const localization::Particle& particle : particles) {
     request.poses.push_back(particle.map_from_robot * base_from_eye_);
+    if (distorted) request.affines.push_back(particle.affine);
   }
-  request.mode = compass ? HeadingMode::kCompass : HeadingMode::kAsGiven;
-  request.whole_curve = combined;
-  const bool distorted = std::ranges::any_of(
-      particles, [](const localization::Particle& one) { return !one.affine.is_identity(); });
-  if (distorted) {
-    for (const localization::Particle& particle : particles) {
-      request.affines.push_back(particle.affine);
-    }
-  }
-  SEMVIEW_TRY(const ScoreBatch batch, source_.score(request));
-  SEMVIEW_TRY_STATUS(check_shape(batch, particles.size(), request));
+  return request;
+}
 
+Result<ObservationWeights> ScoreSourceObservationModel::weigh(
+    std::span<const localization::Particle> particles) {
+  const bool combined = strategy_ == localization::HeadingStrategy::kCombined;
+  const ScoreRequest request = question(particles);
+  PoseCurves curves;
+  if (combined) {
+    SEMVIEW_TRY(curves, score_curves(source_, request));
+  } else {
+    SEMVIEW_TRY(curves.batch, source_.score(request));
+    SEMVIEW_TRY_STATUS(check_shape(curves.batch, particles.size(), request));
+  }
+  const ScoreBatch& batch = curves.batch;
+
+  const bool compass = request.mode == HeadingMode::kCompass;
   ObservationWeights weights;
   weights.log_weights.assign(particles.size(), kNothing);
   if (compass) weights.headings_rad.assign(particles.size(), kNothing);
@@ -93,15 +99,10 @@ Result<ObservationWeights> ScoreSourceObservationModel::weigh(
     if (batch.sums[i] == kNoView) continue;
     HeadingChoice choice;
     if (combined) {
-      const std::span<const std::int32_t> curves(batch.curve);
       const auto carried = particles[i].yaw_known
                                ? std::optional(particles[i].map_from_robot.yaw_rad)
                                : std::nullopt;
-      choice = combine_heading(curves.subspan(i * PoseGrid::kHeadings, PoseGrid::kHeadings),
-                               batch,
-                               carried,
-                               config_,
-                               combined_);
+      choice = combine_heading(curves.of_pose(i), batch, carried, config_, combined_);
     } else {
       choice.log_weight = log_weight(config_, batch.similarity(batch.sums[i]));
       if (compass) choice.heading_rad = PoseGrid::heading_yaw_rad(batch.best_heading[i]);

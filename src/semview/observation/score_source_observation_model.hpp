@@ -44,6 +44,8 @@ class ScoreSourceObservationModel final : public localization::ObservationModel 
   const ScoreSummary& last_scores() const { return last_scores_; }
 
  private:
+  ScoreRequest question(std::span<const localization::Particle> particles) const;
+
   ScoreSource& source_;
   localization::HeadingStrategy strategy_;
   SimilarityWeightingConfig config_;
