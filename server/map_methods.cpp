@@ -53,6 +53,7 @@ Result<Plan> plan_hello(Services& services, const Request& request) {
   limits->set_message_bytes(services.limits.max_message_bytes);
   limits->set_poses(static_cast<std::uint32_t>(services.limits.max_poses));
   limits->set_curve_poses(static_cast<std::uint32_t>(services.limits.max_curve_poses));
+  limits->set_distorted_poses(static_cast<std::uint32_t>(services.limits.max_distorted_poses));
   limits->set_views(static_cast<std::uint32_t>(services.limits.max_views));
   limits->set_view_pixels(services.limits.max_pixels);
   limits->set_request_pixels(services.limits.max_request_pixels);

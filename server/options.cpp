@@ -99,6 +99,7 @@ Status read_limits(const io::YamlNode& node, ServerConfig* server) {
   SEMVIEW_TRY_STATUS(node.expect_keys({"message_bytes",
                                        "poses",
                                        "curve_poses",
+                                       "distorted_poses",
                                        "views",
                                        "view_pixels",
                                        "request_pixels",
@@ -119,6 +120,7 @@ Status read_limits(const io::YamlNode& node, ServerConfig* server) {
   }
   SEMVIEW_TRY_STATUS(read_count(node, "poses", &limits.max_poses, 1));
   SEMVIEW_TRY_STATUS(read_count(node, "curve_poses", &limits.max_curve_poses, 1));
+  SEMVIEW_TRY_STATUS(read_count(node, "distorted_poses", &limits.max_distorted_poses, 1));
   SEMVIEW_TRY_STATUS(read_count(node, "views", &limits.max_views, 1));
   SEMVIEW_TRY_STATUS(read_count(node, "view_pixels", &limits.max_pixels, 1));
   SEMVIEW_TRY_STATUS(read_count(node, "request_pixels", &limits.max_request_pixels, 1));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <deque>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include "semview/protocol/envelope.hpp"
 #include "semview/protocol/score_wire.hpp"
 #include "semview/protocol/view_wire.hpp"
+#include "semview/similarity/affine_groups.hpp"
 #include "semview/similarity/prepared_observation.hpp"
 #include "semview/similarity/score_poses.hpp"
 #include "semview/similarity/weight_matrix.hpp"
@@ -20,39 +23,114 @@ namespace {
 
 using SharedSite = std::shared_ptr<service::Site>;
 
-/// One Score request, its poses by the cells whose views they take.
+/// The poses of a Score request that take the map to be distorted alike, by the cells whose views
+/// they take.
+struct ScorePart {
+  ScorePart(similarity::AffineGroup the_group, ViewSource& source)
+      : group(std::move(the_group)), views(source, group.affine) {}
+
+  similarity::AffineGroup group;
+  similarity::UndistortedViews views;
+  similarity::PoseGroups cells;
+  ScoreBatch batch;
+};
+
+/// One Score request.
 struct Scoring {
   SharedSite site;
   SharedObservation prepared;
   ScoreRequest request;
-  similarity::PoseGroups groups;
-  ScoreBatch batch;
-  std::mutex mutex;  ///< guards batch.origins
+  std::deque<ScorePart> parts;  ///< one without affines
+  std::mutex mutex;             ///< guards the parts' origins
 };
 
-Status score_part(Scoring& scoring, similarity::CellRange cells, ThreadPool& pool) {
-  SEMVIEW_TRY(const ViewOrigins origins,
-              similarity::score_cells(*scoring.prepared,
-                                      scoring.site->views(),
-                                      scoring.request,
-                                      scoring.groups,
-                                      cells,
-                                      pool,
-                                      scoring.batch));
-  const std::lock_guard lock(scoring.mutex);
-  scoring.batch.origins += origins;
+/// Cells of one part.
+struct Piece {
+  ScorePart* part = nullptr;
+  similarity::CellRange cells;
+};
+
+Status score_pieces(Scoring& scoring, const std::vector<Piece>& pieces, ThreadPool& pool) {
+  for (const Piece& piece : pieces) {
+    ScorePart& part = *piece.part;
+    SEMVIEW_TRY(const ViewOrigins origins,
+                similarity::score_cells(*scoring.prepared,
+                                        part.views,
+                                        part.group.request,
+                                        part.cells,
+                                        piece.cells,
+                                        pool,
+                                        part.batch));
+    const std::lock_guard lock(scoring.mutex);
+    part.batch.origins += origins;
+  }
   return {};
 }
 
+/// By distortion, and by the cell whose view is taken: each view is then asked for by one chunk
+/// only, and counted once, as in a call in-process.
+Status divide(Scoring& scoring) {
+  std::vector<similarity::AffineGroup> groups;
+  if (scoring.request.affines.empty()) {
+    groups.push_back({{}, {}, scoring.request});
+  } else {
+    SEMVIEW_TRY(groups, similarity::group_by_affine(scoring.request));
+  }
+  const service::Site& site = *scoring.site;
+  for (similarity::AffineGroup& group : groups) {
+    ScorePart& part = scoring.parts.emplace_back(std::move(group), site.views());
+    SEMVIEW_TRY(part.batch, similarity::unscored_batch(*scoring.prepared, part.group.request));
+    SEMVIEW_TRY(
+        part.cells,
+        similarity::group_by_cell(
+            part.group.request.poses, part.group.request.mode, [&site](const CellIndex& cell) {
+              return site.cells().view_cell(cell).value_or(cell);
+            }));
+  }
+  return {};
+}
+
+/// Chunks of at most `kCellsPerChunk` cells, of several parts where those are small.
 std::vector<Chunk> cut_cells(const std::shared_ptr<Scoring>& scoring, ThreadPool& pool) {
   std::vector<Chunk> chunks;
-  const std::size_t count = scoring->groups.cells.size();
-  for (std::size_t begin = 0; begin < count; begin += kCellsPerChunk) {
-    const similarity::CellRange cells{begin, std::min(begin + kCellsPerChunk, count)};
-    chunks.push_back({cells.end - cells.begin,
-                      [scoring, cells, &pool] { return score_part(*scoring, cells, pool); }});
+  std::vector<Piece> pieces;
+  std::size_t cells = 0;
+  const auto close = [&] {
+    if (pieces.empty()) return;
+    chunks.push_back(
+        {cells, [scoring, pieces, &pool] { return score_pieces(*scoring, pieces, pool); }});
+    pieces.clear();
+    cells = 0;
+  };
+  for (ScorePart& part : scoring->parts) {
+    const std::size_t count = part.cells.cells.size();
+    for (std::size_t begin = 0; begin < count;) {
+      const std::size_t end = std::min(begin + kCellsPerChunk - cells, count);
+      pieces.push_back({&part, {begin, end}});
+      cells += end - begin;
+      begin = end;
+      if (cells == kCellsPerChunk) close();
+    }
   }
+  close();
   return chunks;
+}
+
+Result<ScoreBatch> collect(Scoring& scoring) {
+  if (scoring.request.affines.empty()) return std::move(scoring.parts.front().batch);
+  SEMVIEW_TRY(ScoreBatch whole, similarity::unscored_batch(*scoring.prepared, scoring.request));
+  for (const ScorePart& part : scoring.parts) {
+    similarity::put_scores(part.batch, part.group, whole);
+  }
+  return whole;
+}
+
+/// How many poses a request may have, for what it asks of each.
+std::size_t most_poses(const service::Limits& limits, const v1::ScoreRequest& wire) {
+  std::size_t most = limits.max_poses;
+  if (wire.whole_curve()) most = std::min(most, limits.max_curve_poses);
+  if (wire.affines().a_size() > 0) most = std::min(most, limits.max_distorted_poses);
+  return most;
 }
 
 using SharedWeights = std::shared_ptr<const similarity::WeightMatrix>;
@@ -117,24 +195,15 @@ Result<Plan> plan_score(Services& services, const Request& request) {
   const auto scoring = std::make_shared<Scoring>();
   SEMVIEW_TRY(scoring->site, find_site(services, wire.map_id(), wire.fingerprint()));
   SEMVIEW_TRY(scoring->prepared, find_observation(services, wire.observation_id(), wire.map_id()));
-  const std::size_t limit =
-      wire.whole_curve() ? services.limits.max_curve_poses : services.limits.max_poses;
-  SEMVIEW_TRY(scoring->request, protocol::from_wire(wire, limit));
-  SEMVIEW_TRY(scoring->batch, similarity::unscored_batch(*scoring->prepared, scoring->request));
-  // By the cell whose view is taken: each view is then asked for by one chunk only, and counted
-  // once, as in a call in-process.
-  SEMVIEW_TRY(scoring->groups,
-              similarity::group_by_cell(scoring->request.poses,
-                                        scoring->request.mode,
-                                        [&site = *scoring->site](const CellIndex& cell) {
-                                          return site.cells().view_cell(cell).value_or(cell);
-                                        }));
+  SEMVIEW_TRY(scoring->request, protocol::from_wire(wire, most_poses(services.limits, wire)));
+  SEMVIEW_TRY_STATUS(divide(*scoring));
 
   Plan plan;
   plan.chunks = cut_cells(scoring, services.inline_pool);
   SEMVIEW_TRY_STATUS(check_queue(services, plan.chunks.size() * kCellsPerChunk, "poses"));
   plan.finish = [scoring]() -> Result<std::string> {
-    return protocol::to_wire(scoring->batch).SerializeAsString();
+    SEMVIEW_TRY(const ScoreBatch batch, collect(*scoring));
+    return protocol::to_wire(batch).SerializeAsString();
   };
   return plan;
 }

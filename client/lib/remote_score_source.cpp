@@ -78,6 +78,12 @@ Status RemoteScoreSource::send_observation() {
 }
 
 Result<ScoreBatch> RemoteScoreSource::score(const ScoreRequest& request) {
+  if (!std::ranges::all_of(request.affines, &MapAffine::in_range)) {
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              "an affine is out of range: expected scales of 0.2 to 5 and a shear of -2 to 2",
+              "affines"});
+  }
   v1::ScoreRequest wire;
   protocol::to_wire(request, &wire);
   SEMVIEW_TRY(const std::string body, ask("Score", &wire));

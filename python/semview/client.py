@@ -13,6 +13,7 @@ from .views import View, view_of
 NO_VIEW = -(2**31)  # the sum of a pose that has no view
 UNKNOWN = 255  # in observations: not seen or undecided, never scored
 HEADINGS = 120
+AFFINE_STEP = 0.02  # of ln a, ln b and k: how finely distortions of a map are told apart
 
 
 def connect(
@@ -76,6 +77,19 @@ def _poses(poses):
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"poses of shape {array.shape}; expected (n, 3): x, y, yaw")
     return views_pb2.Poses(x_m=array[:, 0], y_m=array[:, 1], yaw_rad=array[:, 2])
+
+
+def _affine_steps(affines, poses):
+    """Packed lists of an (n, 3) array of a, b, k."""
+    array = np.atleast_2d(np.asarray(affines, dtype=np.float64))
+    if array.shape != (poses, 3):
+        raise ValueError(f"affines of shape {array.shape}; expected ({poses}, 3): a, b, k")
+    scales = array[:, :2]
+    if not (np.all(scales >= 0.2) and np.all(scales <= 5.0) and np.all(np.abs(array[:, 2]) <= 2.0)):
+        raise ValueError("an affine is out of range; expected a and b of 0.2 to 5, k of -2 to 2")
+    a, b = np.clip(np.rint(np.log(scales) / AFFINE_STEP), -80, 80).astype(int).T
+    k = np.rint(array[:, 2] / AFFINE_STEP).astype(int)
+    return scores_pb2.AffineSteps(a=a, b=b, k=k)
 
 
 def _labels(labels, classes):
@@ -292,10 +306,16 @@ class Observation:
         request.observation_id = self._id
         return self._map._connection.call(method, request, reply_type, timeout_s)
 
-    def score(self, poses, compass=False, curve=False) -> Scores:
-        """The similarity at each pose (x, y, yaw); `compass` tries all 120 headings."""
+    def score(self, poses, compass=False, curve=False, affines=None) -> Scores:
+        """The similarity at each pose (x, y, yaw); `compass` tries all 120 headings.
+
+        affines  (n, 3) of a, b, k, one a pose: score as if the plan were drawn distorted by
+                 [[a, 0], [k, b]], taken to the nearest step of 0.02
+        """
         mode = scores_pb2.HEADING_MODE_COMPASS if compass else scores_pb2.HEADING_MODE_AS_GIVEN
         request = scores_pb2.ScoreRequest(poses=_poses(poses), mode=mode, whole_curve=curve)
+        if affines is not None:
+            request.affines.CopyFrom(_affine_steps(affines, len(request.poses.x_m)))
         reply = self._call("Score", request, scores_pb2.ScoreReply)
         sums = np.array(reply.sums, dtype=np.int32)
         scale = (reply.weight_scale, reply.observed_pixels)

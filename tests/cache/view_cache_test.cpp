@@ -72,6 +72,28 @@ TEST_F(ViewCacheTest, AsksMemoryThenDiskThenComputes) {
   }
 }
 
+TEST_F(ViewCacheTest, ViewsOfDistortedMapsPushNothingOutAndAreNeverOnDisk) {
+  const auto distorted = std::make_shared<MemoryTier>(1U << 20U);
+  ViewCache cache(memory_, disk_, distorted);
+  ASSERT_TRUE(cache.get_or_compute(keyspace_, cells_, make_views));
+  const StoreCounters memory = memory_->counters();
+  const StoreCounters disk = disk_->counters();
+  Keyspace drawn = keyspace_;
+  for (int step = 1; step <= 5; ++step) {
+    drawn.affine = affine_of(AffineSteps{step, 0, 0});
+    const auto batch = cache.get_or_compute(drawn, cells_, make_views);
+    ASSERT_TRUE(batch);
+    EXPECT_EQ(batch->origins, (ViewOrigins{0, 0, cells_.size()}));
+  }
+  const auto again = cache.get_or_compute(drawn, cells_, never);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->origins, (ViewOrigins{cells_.size(), 0, 0}));
+  EXPECT_EQ(memory_->counters().views, memory.views);
+  EXPECT_EQ(disk_->counters().views, disk.views);
+  EXPECT_EQ(disk_->counters().misses, disk.misses);
+  EXPECT_EQ(cache.counters().memory.views, memory.views + distorted->counters().views);
+}
+
 TEST_F(ViewCacheTest, ServesWithTiersThatKeepNothing) {
   ViewCache cache(std::make_shared<MemoryTier>(0), std::make_shared<MemoryTier>(0));
   for (int i = 0; i < 2; ++i) {

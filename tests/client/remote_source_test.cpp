@@ -83,6 +83,33 @@ TEST_F(RemoteSourceTest, ScoresAreThoseOfTheSourceInProcess) {
   expect_equal(*remote, in_process(request));
 }
 
+TEST_F(RemoteSourceTest, ScoresOfDistortedMapsAreThoseOfTheSourceInProcess) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE(source) << source.error().message;
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  Rng rng(3, "affines");
+  for (const HeadingMode mode : {HeadingMode::kAsGiven, HeadingMode::kCompass}) {
+    ScoreRequest request{many_poses(300), mode, mode == HeadingMode::kCompass};
+    for (std::size_t i = 0; i < request.poses.size(); ++i) {
+      const bool exact = i % 5 == 0;
+      request.affines.push_back(
+          exact ? MapAffine{}
+                : MapAffine{rng.uniform(0.8, 1.2), rng.uniform(0.8, 1.2), rng.uniform(-0.3, 0.3)});
+    }
+    const auto remote = (*source)->score(request);
+    ASSERT_TRUE(remote) << remote.error().message;
+    expect_equal(*remote, in_process(request));
+  }
+}
+
+TEST_F(RemoteSourceTest, ADistortionOutOfRangeIsRefusedHereAndThere) {
+  const auto source = RemoteScoreSource::open(config(), "room", weights());
+  ASSERT_TRUE((*source)->set_observation(observation()));
+  ScoreRequest request{many_poses(1)};
+  request.affines = {{.a = 7.0}};
+  EXPECT_EQ((*source)->score(request).error().field, "affines");
+}
+
 TEST_F(RemoteSourceTest, HeatMapsAndPosteriorsAreThoseInProcess) {
   const auto source = RemoteScoreSource::open(config(), "room", weights());
   ASSERT_TRUE(source) << source.error().message;

@@ -55,6 +55,42 @@ TEST(ScoreWireTest, AScoreRequestComesBackAsItWas) {
   EXPECT_EQ(back->whole_curve, request.whole_curve);
 }
 
+TEST(ScoreWireTest, AffinesComeBackOnTheirGrid) {
+  const ScoreRequest request{{{1.0, 2.0, 0.5}, {}, {}},
+                             HeadingMode::kAsGiven,
+                             false,
+                             {{}, {1.31, 0.77, -0.3}, {5, 0.2, 2}}};
+  v1::ScoreRequest wire;
+  to_wire(request, &wire);
+  const auto back = from_wire(wire, 10);
+  ASSERT_TRUE(back) << back.error().message;
+  ASSERT_EQ(back->affines.size(), 3U);
+  EXPECT_TRUE(back->affines[0].is_identity());
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(back->affines[i], on_affine_grid(request.affines[i]));
+    EXPECT_TRUE(back->affines[i].in_range());
+  }
+}
+
+TEST(ScoreWireTest, AffinesThatAreNotOneAPoseOrOutOfRangeAreRefused) {
+  const ScoreRequest request{{{}, {}}, HeadingMode::kAsGiven, false, {{}, {}}};
+  v1::ScoreRequest good;
+  to_wire(request, &good);
+  ASSERT_TRUE(from_wire(good, 10));
+  v1::ScoreRequest wire = good;
+  wire.mutable_affines()->add_k(0);
+  EXPECT_EQ(from_wire(wire, 10).error().field, "affines");
+  wire.mutable_affines()->add_a(0);
+  wire.mutable_affines()->add_b(0);
+  EXPECT_EQ(from_wire(wire, 10).error().field, "affines") << "three of two poses";
+  wire = good;
+  wire.mutable_affines()->set_a(1, 81);
+  EXPECT_EQ(from_wire(wire, 10).error().field, "affines");
+  wire = good;
+  wire.mutable_affines()->set_k(0, -101);
+  EXPECT_EQ(from_wire(wire, 10).error().field, "affines");
+}
+
 TEST(ScoreWireTest, ACurveWithoutTheCompassAndAnUnknownModeAreRefused) {
   v1::ScoreRequest wire;
   to_wire({{{1.0, 2.0, 0.5}}, HeadingMode::kAsGiven, true}, &wire);

@@ -193,6 +193,15 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(scores.curve.shape, (1, 120))
         self.assertEqual(int(np.argmax(scores.curve[0])), 14)
 
+    def test_a_map_taken_to_be_distorted_scores_otherwise(self):
+        (view,) = self.map.views([self.pose])
+        observation = self.map.set_observation(view.labels)
+        poses = [self.pose] * 3
+        scores = observation.score(poses, affines=[(1, 1, 0), (1.004, 1, 0), (1.3, 0.8, 0.2)])
+        self.assertAlmostEqual(scores.similarity[0], 1.0)
+        self.assertEqual(scores.sums[1], scores.sums[0])
+        self.assertLess(scores.similarity[2], 0.99)
+
     def test_the_heat_map_is_hottest_where_it_was_made(self):
         (view,) = self.map.views([self.pose])
         observation = self.map.set_observation(view.labels)
@@ -256,6 +265,10 @@ class ClientTest(unittest.TestCase):
         (view,) = self.map.views([self.pose])
         with self.assertRaisesRegex(ValueError, "no poses"):
             self.map.set_observation(view.labels).score([])
+        with self.assertRaisesRegex(ValueError, r"affines of shape \(2, 3\); expected \(1, 3\)"):
+            self.map.set_observation(view.labels).score([self.pose], affines=[(1, 1, 0)] * 2)
+        with self.assertRaisesRegex(ValueError, "out of range"):
+            self.map.set_observation(view.labels).score([self.pose], affines=[(9, 1, 0)])
 
     def test_class_names_are_those_of_ids(self):
         self.assertEqual(self.map.class_name(0), "none")

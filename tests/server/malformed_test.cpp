@@ -219,6 +219,7 @@ TEST_F(MalformedTest, WeightsThatDoNotFitAreNamed) {
 TEST_F(MalformedTest, HugeCountsAreResourceExhausted) {
   server::ServerConfig config;
   config.limits.max_poses = 100;
+  config.limits.max_distorted_poses = 10;
   config.limits.max_views = 10;
   config.limits.max_heat_map_cells = 20;
   config.limits.max_message_bytes = 100'000;
@@ -226,6 +227,13 @@ TEST_F(MalformedTest, HugeCountsAreResourceExhausted) {
   client_ = std::make_unique<RawClient>(server_->endpoint());
   const std::string id = set_observation(*client_);
   expect_error("Score", score_request(id, 101), v1::ERROR_CODE_RESOURCE_EXHAUSTED, "poses");
+  v1::ScoreRequest distorted = score_request(id, 11);
+  for (int i = 0; i < 11; ++i) {
+    distorted.mutable_affines()->add_a(i);
+    distorted.mutable_affines()->add_b(0);
+    distorted.mutable_affines()->add_k(0);
+  }
+  expect_error("Score", distorted, v1::ERROR_CODE_RESOURCE_EXHAUSTED, "poses");
   v1::GetViewsRequest views;
   views.set_map_id("room");
   *views.mutable_poses() = score_request(id, 11).poses();

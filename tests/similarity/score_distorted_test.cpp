@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/similarity/score_distorted.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "reference/literal_similarity.hpp"
@@ -85,6 +87,14 @@ TEST_F(ScoreDistortedTest, AMapThatIsExactGivesTheScoresOfPlainPoses) {
   const auto plain = score(1);
   ASSERT_TRUE(distorted && plain);
   EXPECT_EQ(distorted->sums, plain->sums);
+}
+
+TEST_F(ScoreDistortedTest, AnAffineOutOfRangeIsNamed) {
+  request_.affines[3] = {.a = std::numeric_limits<double>::quiet_NaN()};
+  const auto batch = score(1);
+  EXPECT_EQ(batch.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(batch.error().field, "affines");
+  EXPECT_NE(batch.error().message.find("affine 3"), std::string::npos) << batch.error().message;
 }
 
 TEST_F(ScoreDistortedTest, AnAffineForSomePosesOnlyIsAnError) {

@@ -117,16 +117,7 @@ void MemoryTier::put(const Keyspace& keyspace,
 
 StoreCounters MemoryTier::counters() const {
   StoreCounters sum;
-  for (const auto& shard : shards_) {
-    const StoreCounters part = shard->counters();
-    sum.hits += part.hits;
-    sum.misses += part.misses;
-    sum.stored += part.stored;
-    sum.evicted += part.evicted;
-    sum.refused += part.refused;
-    sum.bytes += part.bytes;
-    sum.views += part.views;
-  }
+  for (const auto& shard : shards_) sum += shard->counters();
   return sum;
 }
 

@@ -103,18 +103,23 @@ std::vector<std::size_t> all_indices(std::size_t count) {
 
 }  // namespace
 
-ViewCache::ViewCache(std::shared_ptr<ViewStore> memory, std::shared_ptr<ViewStore> disk)
-    : memory_(std::move(memory)), disk_(std::move(disk)) {
+ViewCache::ViewCache(std::shared_ptr<ViewStore> memory,
+                     std::shared_ptr<ViewStore> disk,
+                     std::shared_ptr<ViewStore> distorted)
+    : memory_(std::move(memory)), disk_(std::move(disk)), distorted_(std::move(distorted)) {
   SEMVIEW_CHECK(memory_ != nullptr);
 }
 
 Result<ViewBatch> ViewCache::get_or_compute(const Keyspace& keyspace,
                                             std::span<const CellIndex> cells,
                                             const ComputeViews& compute) {
+  const bool distorted = !keyspace.affine.is_identity();
+  ViewStore& memory = distorted && distorted_ != nullptr ? *distorted_ : *memory_;
+  ViewStore* const disk = distorted ? nullptr : disk_.get();
   Request request(cells);
   ViewOrigins& origins = request.origins;
   const std::vector<std::size_t> missing =
-      request.fill_from(*memory_, keyspace, all_indices(request.cells.size()), origins.memory);
+      request.fill_from(memory, keyspace, all_indices(request.cells.size()), origins.memory);
   if (missing.empty()) return request.answer();
 
   const Fingerprint keyspace_name = digest(keyspace);
@@ -128,9 +133,9 @@ Result<ViewBatch> ViewCache::get_or_compute(const Keyspace& keyspace,
   for (const std::size_t k : claim.mine()) mine.push_back(missing[k]);
   // Another thread may have finished a cell between the first look and the claim.
   const std::vector<std::size_t> unknown =
-      request.fill_from(*memory_, keyspace, mine, origins.memory);
+      request.fill_from(memory, keyspace, mine, origins.memory);
   const std::vector<std::size_t> uncast =
-      disk_ == nullptr ? unknown : request.fill_from(*disk_, keyspace, unknown, origins.disk);
+      disk == nullptr ? unknown : request.fill_from(*disk, keyspace, unknown, origins.disk);
   if (!uncast.empty()) {
     Result<std::vector<SharedView>> cast = call(compute, request.cells_at(uncast));
     if (!cast) {
@@ -144,13 +149,13 @@ Result<ViewBatch> ViewCache::get_or_compute(const Keyspace& keyspace,
     origins.cast += uncast.size();
     cast_ += uncast.size();
   }
-  request.put_into(*memory_, keyspace, unknown);
+  request.put_into(memory, keyspace, unknown);
   std::vector<SharedView> made;
   made.reserve(mine.size());
   for (const std::size_t i : mine) made.push_back(request.views[i]);
   claim.complete(std::move(made));
   // Waiters have their answer before the slow part.
-  if (disk_ != nullptr) request.put_into(*disk_, keyspace, uncast);
+  if (disk != nullptr) request.put_into(*disk, keyspace, uncast);
 
   SEMVIEW_TRY_STATUS(claim.wait([&](std::size_t k, const SharedView& view) {
     request.views[missing[k]] = view;
@@ -162,6 +167,7 @@ Result<ViewBatch> ViewCache::get_or_compute(const Keyspace& keyspace,
 ViewCacheCounters ViewCache::counters() const {
   ViewCacheCounters counters;
   counters.memory = memory_->counters();
+  if (distorted_ != nullptr) counters.memory += distorted_->counters();
   if (disk_ != nullptr) counters.disk = disk_->counters();
   counters.cast = cast_;
   counters.waits = waits_;

@@ -21,7 +21,7 @@ namespace semview::cache {
 using ComputeViews = std::function<Result<std::vector<SharedView>>(std::span<const CellIndex>)>;
 
 struct ViewCacheCounters {
-  StoreCounters memory;
+  StoreCounters memory;      ///< of both tiers in memory
   StoreCounters disk;        ///< all zero without a disk tier
   std::uint64_t cast = 0;    ///< views made by a compute function
   std::uint64_t waits = 0;   ///< cells that another thread was already making
@@ -30,12 +30,18 @@ struct ViewCacheCounters {
 
 /// Two tiers and single flight: a view that several threads want at once is made once.
 ///
+/// Views of maps taken to be distorted have a tier of their own and never go to the disk: while a
+/// distortion is being estimated there are hundreds a frame, seen once each, and they must not push
+/// out the views of the map as it is.
+///
 /// Nothing here knows how a view is made.
 /// @threads All members from several threads at once.
 class ViewCache {
  public:
-  /// `disk` may be null.
-  ViewCache(std::shared_ptr<ViewStore> memory, std::shared_ptr<ViewStore> disk);
+  /// `disk` may be null. Without `distorted` the views of distorted maps are in `memory`.
+  ViewCache(std::shared_ptr<ViewStore> memory,
+            std::shared_ptr<ViewStore> disk,
+            std::shared_ptr<ViewStore> distorted = nullptr);
 
   /// The views of `cells`, which may repeat. `origins` counts distinct cells; a cell that another
   /// thread was making counts as from memory.
@@ -50,6 +56,7 @@ class ViewCache {
  private:
   std::shared_ptr<ViewStore> memory_;
   std::shared_ptr<ViewStore> disk_;
+  std::shared_ptr<ViewStore> distorted_;
   SingleFlight<ViewKey, SharedView> flights_;
   std::atomic<std::uint64_t> cast_{0};
   std::atomic<std::uint64_t> waits_{0};

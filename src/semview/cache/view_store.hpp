@@ -24,6 +24,22 @@ struct StoreCounters {
   std::uint64_t bytes = 0;    ///< held now
   std::uint64_t views = 0;    ///< held now; 0 where counting would be slow
   bool storing = true;        ///< false once a full or failing disk has stopped it
+
+  /// As of one tier that is made of both.
+  StoreCounters& operator+=(const StoreCounters& other) {
+    hits += other.hits;
+    misses += other.misses;
+    stored += other.stored;
+    evicted += other.evicted;
+    refused += other.refused;
+    damaged += other.damaged;
+    foreign += other.foreign;
+    unknown += other.unknown;
+    bytes += other.bytes;
+    views += other.views;
+    storing = storing && other.storing;
+    return *this;
+  }
 };
 
 /// Keeps views for later, as well as it can.

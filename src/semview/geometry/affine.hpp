@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "semview/geometry/pose2.hpp"
+
 namespace semview {
 
 /// A = [[a, 0], [k, b]] maps true metres to metres as drawn: `a` and `b` scale the axes, `k` shears
@@ -34,6 +36,13 @@ struct MapAffine {
     return {a * direction.x(), k * direction.x() + b * direction.y(), direction.z()};
   }
 };
+
+/// `after` is `before` moved in true metres: where that leads in the drawn map.
+inline Pose2 drawn_move(const Pose2& before, const Pose2& after, const MapAffine& affine) {
+  const double x_m = after.x_m - before.x_m;
+  const double y_m = after.y_m - before.y_m;
+  return {before.x_m + affine.a * x_m, before.y_m + affine.k * x_m + affine.b * y_m, after.yaw_rad};
+}
 
 /// How finely distortions are told apart where views are cached: scales by steps of their
 /// logarithm, shears by steps.
@@ -67,8 +76,6 @@ inline MapAffine affine_of(const AffineSteps& steps) {
 }
 
 /// The nearest distortion of the grid; the identity is on it. `affine` must be in range.
-inline MapAffine on_affine_grid(const MapAffine& affine) {
-  return affine_of(affine_steps(affine));
-}
+inline MapAffine on_affine_grid(const MapAffine& affine) { return affine_of(affine_steps(affine)); }
 
 }  // namespace semview

@@ -51,7 +51,53 @@ void to_wire(const ScoreRequest& request, v1::ScoreRequest* wire) {
   wire->set_mode(request.mode == HeadingMode::kCompass ? v1::HEADING_MODE_COMPASS
                                                        : v1::HEADING_MODE_AS_GIVEN);
   wire->set_whole_curve(request.whole_curve);
+  for (const MapAffine& affine : request.affines) {
+    const AffineSteps steps = affine_steps(affine);
+    wire->mutable_affines()->add_a(steps.a);
+    wire->mutable_affines()->add_b(steps.b);
+    wire->mutable_affines()->add_k(steps.k);
+  }
 }
+
+namespace {
+
+Result<std::vector<MapAffine>> affines_from_wire(const v1::AffineSteps& wire, std::size_t poses) {
+  const auto count = static_cast<std::size_t>(wire.a_size());
+  if (wire.a_size() != wire.b_size() || wire.a_size() != wire.k_size() ||
+      (count != 0 && count != poses)) {
+    return wrong_field(
+        "affines",
+        fmt::format("{} a, {} b, {} k of {} poses; expected one each a pose, or none",
+                    wire.a_size(),
+                    wire.b_size(),
+                    wire.k_size(),
+                    poses));
+  }
+  std::vector<MapAffine> affines;
+  affines.reserve(count);
+  for (int i = 0; i < wire.a_size(); ++i) {
+    const auto within = [](std::int32_t steps, int most) {
+      return steps >= -most && steps <= most;
+    };
+    if (!within(wire.a(i), AffineSteps::kMostSteps) ||
+        !within(wire.b(i), AffineSteps::kMostSteps) ||
+        !within(wire.k(i), AffineSteps::kMostShearSteps)) {
+      return wrong_field(
+          "affines",
+          fmt::format("entry {} is {}, {}, {} steps; expected a and b within {}, k within {}",
+                      i,
+                      wire.a(i),
+                      wire.b(i),
+                      wire.k(i),
+                      AffineSteps::kMostSteps,
+                      AffineSteps::kMostShearSteps));
+    }
+    affines.push_back(affine_of(AffineSteps{wire.a(i), wire.b(i), wire.k(i)}));
+  }
+  return affines;
+}
+
+}  // namespace
 
 Result<ScoreRequest> from_wire(const v1::ScoreRequest& wire, std::size_t max_poses) {
   ScoreRequest request;
@@ -71,6 +117,7 @@ Result<ScoreRequest> from_wire(const v1::ScoreRequest& wire, std::size_t max_pos
     return wrong_field("whole_curve", "only the compass has a curve");
   }
   SEMVIEW_TRY(request.poses, from_wire(wire.poses(), max_poses, "poses"));
+  SEMVIEW_TRY(request.affines, affines_from_wire(wire.affines(), request.poses.size()));
   return request;
 }
 

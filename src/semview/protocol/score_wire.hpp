@@ -18,10 +18,10 @@ void to_wire(const Observation& observation, v1::SetObservationRequest* wire);
 /// the field is named.
 Result<Observation> from_wire(const v1::SetObservationRequest& wire);
 
-/// The request's part of the message: poses, mode, curve.
+/// The request's part of the message: poses, mode, curve, affines (which must be in range).
 void to_wire(const ScoreRequest& request, v1::ScoreRequest* wire);
-/// @errors those of poses with field "poses"; kInvalidArgument: an unknown mode, or a curve
-/// without the compass.
+/// @errors those of poses with field "poses"; kInvalidArgument: an unknown mode, a curve without
+/// the compass, affines that are not one a pose or out of range.
 Result<ScoreRequest> from_wire(const v1::ScoreRequest& wire, std::size_t max_poses);
 
 v1::ScoreReply to_wire(const ScoreBatch& batch);

@@ -12,6 +12,7 @@ struct Limits {
   std::size_t max_message_bytes = std::size_t{64} << 20U;  ///< of one request
   std::size_t max_poses = 200'000;                         ///< of one score request
   std::size_t max_curve_poses = 20'000;                    ///< with the whole heading curve
+  std::size_t max_distorted_poses = 20'000;                ///< with an affine each
   std::size_t max_views = 4096;                            ///< cells of one request for views
   std::uint64_t max_pixels = 4'000'000;                    ///< of one exact view
   std::uint64_t max_request_pixels = 64'000'000;           ///< of all views of one request

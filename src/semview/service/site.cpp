@@ -102,8 +102,11 @@ Result<SharedTiers> SharedTiers::open(const SiteConfig& config) {
                 cache::LmdbStore::open({*config.cache_directory, config.cache_limit_bytes}));
   }
   tiers.pool = std::make_shared<ThreadPool>(config.threads);
+  const std::uint64_t distorted_bytes = config.memory_bytes / 8;
   tiers.cache = std::make_shared<cache::ViewCache>(
-      std::make_shared<cache::MemoryTier>(config.memory_bytes), tiers.store);
+      std::make_shared<cache::MemoryTier>(config.memory_bytes - distorted_bytes),
+      tiers.store,
+      std::make_shared<cache::MemoryTier>(distorted_bytes));
   return tiers;
 }
 

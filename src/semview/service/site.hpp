@@ -40,9 +40,10 @@ struct SiteConfig {
   std::string engine = "auto";                                ///< "auto", "columns" or "embree"
   std::optional<std::filesystem::path> cache_directory = {};  ///< none: memory only
   std::uint64_t cache_limit_bytes = 0;  ///< of the directory; 0: as far as the disk goes
-  std::uint64_t memory_bytes = std::uint64_t{512} << 20U;  ///< budget of the memory tier
-  std::size_t threads = 0;                                 ///< 0: one a core
-  bool nearest_colour = false;                             ///< plans with anti-aliased drawings
+  /// Budget of the views in memory; those of distorted maps have an eighth of it.
+  std::uint64_t memory_bytes = std::uint64_t{512} << 20U;
+  std::size_t threads = 0;      ///< 0: one a core
+  bool nearest_colour = false;  ///< plans with anti-aliased drawings
 };
 
 /// @errors kInvalidArgument, with the option of the command line as the error's field.
