@@ -69,7 +69,8 @@ Status validate(const AffineStateConfig& config) {
       require(is_sigma(config.log_scale_sigma), "log_scale_sigma", config.log_scale_sigma));
   SEMVIEW_TRY_STATUS(require(is_sigma(config.shear_sigma), "shear_sigma", config.shear_sigma));
   SEMVIEW_TRY_STATUS(require(is_share(config.renewal), "renewal", config.renewal));
-  return require(is_sigma(config.least_sigma), "least_sigma", config.least_sigma);
+  SEMVIEW_TRY_STATUS(require(is_sigma(config.least_sigma), "least_sigma", config.least_sigma));
+  return require(is_sigma(config.drift), "drift", config.drift);
 }
 
 void spread_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng) {
@@ -93,6 +94,17 @@ void renew_affines(ParticleSet& particles, const AffineStateConfig& config, Rng&
       const double sigma = std::max(config.renewal * spread.sigma[i], config.least_sigma);
       at[i] = spread.mean[i] + kept * (at[i] - spread.mean[i]) + rng.normal(0.0, sigma);
     }
+    particle.affine = affine_of(at);
+  }
+}
+
+void walk_affines(ParticleSet& particles, const AffineStateConfig& config, double way_m, Rng& rng) {
+  const double sigma = config.drift * std::sqrt(way_m);
+  if (!(sigma > 0.0)) return;
+  for (Particle& particle : particles) {
+    if (particle.affine.is_identity()) continue;
+    Coordinates at = coordinates(particle.affine);
+    for (double& coordinate : at) coordinate += rng.normal(0.0, sigma);
     particle.affine = affine_of(at);
   }
 }

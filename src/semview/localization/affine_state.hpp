@@ -20,6 +20,9 @@ struct AffineStateConfig {
   double renewal = 0.3;
   /// Least σ of that noise, so that the estimate can still move; >= 0.
   double least_sigma = 0.003;
+  /// A drawing that is distorted otherwise in each place: ln a, ln b and k walk at random with this
+  /// σ for the square root of each metre of the way, >= 0. 0: one distortion for the whole map.
+  double drift = 0.0;
 };
 
 /// @errors kInvalidArgument: out of range; `Error::field` names it.
@@ -30,6 +33,10 @@ void spread_affines(ParticleSet& particles, const AffineStateConfig& config, Rng
 
 /// Moves the distortions of particles that are not exact a little, as after each resampling.
 void renew_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng);
+
+/// Lets the distortions of particles that are not exact walk by `config.drift`, after a way of
+/// `way_m` true metres.
+void walk_affines(ParticleSet& particles, const AffineStateConfig& config, double way_m, Rng& rng);
 
 /// Mean and spread of the particles' distortions, scales by their logarithms.
 struct AffineEstimate {

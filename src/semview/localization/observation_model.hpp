@@ -12,7 +12,8 @@ namespace semview::localization {
 
 /// How well each pose explains the current observation.
 struct ObservationWeights {
-  /// One a particle; a common offset means nothing. -∞: impossible.
+  /// One a particle; -∞: impossible. A common offset changes no belief, but from observation to
+  /// observation it tells how well they are explained at all.
   std::vector<double> log_weights;
   /// From a visual compass: one a particle, the heading that explains the observation best there
   /// (NaN: no reading); else empty.

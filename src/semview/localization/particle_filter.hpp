@@ -10,6 +10,7 @@
 #include "semview/core/result.hpp"
 #include "semview/localization/affine_state.hpp"
 #include "semview/localization/heading_strategy.hpp"
+#include "semview/localization/kld_sampling.hpp"
 #include "semview/localization/motion_model.hpp"
 #include "semview/localization/observation_model.hpp"
 #include "semview/localization/particle_set.hpp"
@@ -21,6 +22,9 @@ struct ParticleFilterConfig {
   /// every observation as the 2017 paper does, 0 never.
   double resample_threshold = 0.5;
   CompassConfig compass = {};
+  /// Set: resampling draws as many particles as the belief needs, and happens too when it needs
+  /// less than half or more than twice of those there are.
+  std::optional<KldConfig> kld = {};
   /// Set: particles carry distortions of the map, which resampling renews. The owner gives the
   /// first particles theirs (`spread_affines`).
   std::optional<AffineStateConfig> affine = {};
@@ -33,6 +37,9 @@ Status validate(const ParticleFilterConfig& config);
 struct UpdateReport {
   WeightOutcome outcome = WeightOutcome::kUsed;
   double effective_sample_size = 0.0;  ///< after weighing, before resampling
+  /// Of the twentieth roots of the likelihoods, by the weights before: what a RecoveryMonitor
+  /// follows. 0 if no particle is possible.
+  double mean_likelihood = 0.0;
 };
 
 /// The filter. Its numbers follow from particles, inputs and seed alone: it uses no clock and no
@@ -62,7 +69,13 @@ class ParticleFilter {
   /// @return whether it did
   bool resample_if_needed();
 
+  /// Puts `newcomers` in the place of as many particles, which resampling chooses; all weigh the
+  /// same then. Fewer than there are particles; none: nothing happens.
+  void replace_some(ParticleSet newcomers);
+
  private:
+  ParticleSet draw(std::size_t count);
+
   ParticleFilterConfig config_;
   std::shared_ptr<const MotionModel> motion_;
   ParticleSet particles_;
