@@ -44,7 +44,7 @@ class Progress {
       const Pose2& pose = report.estimate.map_from_robot;
       fmt::print(stderr,
                  "\r\x1b[Kframe {}/{}  {:.2f} {:.2f} m  {:.0f} deg  sigma {:.2f} m  N_eff {:.0f}  "
-                 "similarity {:.3f}  {}{}",
+                 "similarity {:.3f}  lost {:.2f}  {}{}",
                  done,
                  total,
                  pose.x_m,
@@ -53,6 +53,7 @@ class Progress {
                  localization::position_ellipse(report.estimate).major_sigma_m,
                  report.effective_sample_size,
                  report.scores.best_similarity,
+                 report.lost_probability.value_or(0.0),
                  name(report.state),
                  done == total ? "\n" : "");
       std::fflush(stderr);
@@ -156,6 +157,27 @@ nlohmann::ordered_json as_json(const robot::DenseStart& start) {
   return {{"stamp_s", start.stamp_s}, {"cells", start.cells}, {"modes", std::move(modes)}};
 }
 
+nlohmann::ordered_json as_json(const localization::AffineEstimate& affine) {
+  return {{"scale_x", affine.mean.a},
+          {"scale_x_sigma", affine.a_sigma},
+          {"scale_y", affine.mean.b},
+          {"scale_y_sigma", affine.b_sigma},
+          {"shear", affine.mean.k},
+          {"shear_sigma", affine.k_sigma}};
+}
+
+void print_map(const localization::AffineEstimate& affine) {
+  fmt::print(
+      "map: drawn with scale x {:.3f} (sigma {:.3f}), y {:.3f} (sigma {:.3f}) and shear "
+      "{:.3f} (sigma {:.3f})\n",
+      affine.mean.a,
+      affine.a_sigma,
+      affine.mean.b,
+      affine.b_sigma,
+      affine.mean.k,
+      affine.k_sigma);
+}
+
 void print_dense_start(const robot::DenseStart& start) {
   fmt::print("start: of {} cells at {} headings, the strongest places are\n",
              start.cells,
@@ -208,14 +230,18 @@ void print_summary(const LocalizeOptions& options,
           {"yaw_deg", shown_deg(pose.yaw_rad)},
           {"sigma_m", sigma_m},
           {"weight", last.estimate.weight}}}};
+    nlohmann::ordered_json& json_of_last = summary["last"];
+    if (last.lost_probability) json_of_last["lost_probability"] = *last.lost_probability;
+    if (last.affine) json_of_last["map"] = as_json(*last.affine);
     if (start) summary["start"] = as_json(*start);
     fmt::print("{}\n", summary.dump(2));
     return;
   }
   if (start) print_dense_start(*start);
+  if (last.affine) print_map(*last.affine);
   fmt::print(
       "{}: {} frames, {} scored, {} stale{}{}{}; ends at {:.2f} {:.2f} m, {:.1f} deg (sigma {:.2f} "
-      "m around it, {:.0f} % of the belief); "
+      "m around it, {:.0f} % of the belief{}); "
       "cells: {} memory, {} disk, {} cast; weights: {}\n",
       options.output,
       drive.frames.size(),
@@ -231,6 +257,8 @@ void print_summary(const LocalizeOptions& options,
       deg_from_rad(pose.yaw_rad),
       sigma_m,
       100.0 * last.estimate.weight,
+      last.lost_probability ? fmt::format("; lost with probability {:.2f}", *last.lost_probability)
+                            : "",
       origins.memory,
       origins.disk,
       origins.cast,
@@ -253,6 +281,7 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
     log_info(fmt::format("localizing {} frames; weights: {}", log.frames.size(), scorer.weights));
   }
   robot::Localizer localizer(config, *scorer.source, motion, std::move(start), options.seed);
+  localizer.know_free_cells(scorer.free_cells);
   SearchLine search;
   if (is_dense(options)) {
     localizer.search(scorer.free_cells, [&search](std::size_t done, std::size_t cells) {

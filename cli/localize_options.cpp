@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "localize_belief_options.hpp"
 #include "localize_start.hpp"
 #include "semview/geometry/angle.hpp"
 #include "verb.hpp"
@@ -31,6 +32,16 @@ Status as_option(const Status& status) {
       {"gate_rad", "--compass-gate"},
       {"sigma_rad", "--combined-sigma"},
       {"lost_probability", "--combined-lost"},
+      {"identity_share", "--affine-exact"},
+      {"log_scale_sigma", "--affine-scale-sigma"},
+      {"shear_sigma", "--affine-shear-sigma"},
+      {"drift", "--affine-drift"},
+      {"kld_err", "--kld-err"},
+      {"kld_z", "--kld-z"},
+      {"min_particles", "--min-particles"},
+      {"max_particles", "--max-particles"},
+      {"recovery_alpha_slow", "--recovery-alpha-slow"},
+      {"recovery_alpha_fast", "--recovery-alpha-fast"},
       {"sigma_m", "--sigma"},
       {"heading_sigma_rad", "--heading-sigma"}};
   const std::string& field = status.error().field;
@@ -181,6 +192,7 @@ void add_localize_options(CLI::App& verb, LocalizeOptions& options) {
   first = begin_group();
   add_filter_options(verb, options);
   group_since(verb, first, "Filter");
+  add_belief_options(verb, options);
   first = begin_group();
   add_motion_options(verb, options);
   group_since(verb, first, "Motion");
@@ -210,6 +222,7 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
     return usage("--init-heading-sigma",
                  fmt::format("{}: expected 0 to 360", options.init_heading_sigma_deg));
   }
+  SEMVIEW_TRY_STATUS(check_belief_options(verb, options));
   return options.server.empty() ? Status() : check_no_site_options(verb);
 }
 
@@ -230,6 +243,7 @@ Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) 
   config.estimate = options.estimate == "best"   ? localization::EstimateKind::kHighestWeight
                     : options.estimate == "mean" ? localization::EstimateKind::kWeightedMean
                                                  : localization::EstimateKind::kStrongestMode;
+  apply_belief_options(options, config);
   SEMVIEW_TRY_STATUS(as_option(validate(config)));
   return config;
 }

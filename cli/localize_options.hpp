@@ -9,9 +9,12 @@
 #include <string>
 
 #include "client/robot/localizer.hpp"
+#include "semview/localization/affine_state.hpp"
+#include "semview/localization/kld_sampling.hpp"
 #include "semview/localization/odometry_motion_model.hpp"
 #include "semview/localization/particle_set.hpp"
 #include "semview/localization/position_noise_model.hpp"
+#include "semview/localization/recovery.hpp"
 #include "site_options.hpp"
 #include "weighting_options.hpp"
 
@@ -42,6 +45,13 @@ struct LocalizeOptions {
   std::optional<double> compass_gate_deg = {};  ///< none: as `--heading` has it
   double combined_sigma_deg = 0.0;
   double combined_lost = observation::CombinedHeadingConfig{}.lost_probability;
+  bool refine = false;
+  bool estimate_map_affine = false;
+  localization::AffineStateConfig affine = {};
+  bool kld = false;
+  localization::KldConfig kld_sampling = {};
+  std::string recovery;  ///< empty: none; "uniform" or "dense"
+  localization::RecoveryConfig recovery_rates = {};
   double rate = 0.0;
   double timeout_s = 5.0;
   bool json = false;

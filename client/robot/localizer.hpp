@@ -14,13 +14,21 @@
 #include "semview/localization/motion_model.hpp"
 #include "semview/localization/particle_filter.hpp"
 #include "semview/localization/pose_estimate.hpp"
+#include "semview/localization/recovery.hpp"
 #include "semview/observation/combined_heading.hpp"
 #include "semview/observation/dense_posterior.hpp"
+#include "semview/observation/lost_probability.hpp"
 #include "semview/observation/score_source_observation_model.hpp"
 #include "semview/observation/similarity_weighting.hpp"
 #include "semview/view/score_source.hpp"
 
 namespace semview::robot {
+
+/// Where recovery takes fresh particles from.
+enum class Newcomers {
+  kUniform,  ///< anywhere in the free space
+  kDense,    ///< from what the current observation says of every free cell and heading
+};
 
 /// docs/localization.md tells what each parameter does and why it has its default.
 struct LocalizerConfig {
@@ -28,6 +36,10 @@ struct LocalizerConfig {
   localization::ParticleFilterConfig filter = {};
   observation::SimilarityWeightingConfig weighting = {};
   observation::CombinedHeadingConfig combined = {};  ///< of HeadingStrategy::kCombined
+  /// Set: particles are given up for others when observations fit worse than they used to.
+  std::optional<localization::RecoveryConfig> recovery = {};
+  Newcomers newcomers = Newcomers::kUniform;
+  bool refine = false;  ///< the estimate is moved to the top of the observation's similarity
   localization::EstimateKind estimate = localization::EstimateKind::kStrongestMode;
   localization::ModeConfig mode = {};
 };
@@ -61,6 +73,14 @@ struct FrameReport {
   double effective_sample_size = 0.0;
   bool resampled = false;
   observation::ScoreSummary scores;  ///< zeros unless scored
+  std::size_t particles = 0;         ///< that were weighed
+  std::size_t replaced = 0;          ///< by recovery
+  /// How the map is distorted, if that is estimated.
+  std::optional<localization::AffineEstimate> affine = {};
+  /// That the pose is wrong: of this frame, or of the last one that could be judged. None before
+  /// that, and if the free cells are not known.
+  std::optional<double> lost_probability = {};
+  std::optional<observation::LostFeatures> lost_features = {};  ///< of this frame
 };
 
 /// What a search of all cells found.
@@ -95,6 +115,10 @@ class Localizer {
     search_progress_ = std::move(progress);
   }
 
+  /// The cells that a robot may be in: what the estimate is compared with to tell whether the robot
+  /// is lost, and where recovery takes particles from. Without them neither happens.
+  void know_free_cells(std::vector<CellIndex> cells);
+
   /// What the search found, once it is done.
   const std::optional<DenseStart>& dense_start() const { return dense_start_; }
 
@@ -109,6 +133,12 @@ class Localizer {
   Result<FrameReport> weigh(const Observation& observation);
   Result<FrameReport> search_cells(const Observation& observation);
   localization::PoseEstimate dead_reckoning() const;
+  Status look_closer(const Observation& observation, FrameReport& report);
+  Status judge(const Pose2& map_from_eye, const MapAffine& affine, FrameReport& report);
+  Status refine(const Pose2& base_from_eye, const MapAffine& affine, FrameReport& report);
+  Status resample(const Observation& observation, FrameReport& report);
+  Result<localization::ParticleSet> newcomers(const Observation& observation, std::size_t count);
+  MapAffine map_affine() const;
 
   LocalizerConfig config_;
   ScoreSource& source_;
@@ -118,6 +148,13 @@ class Localizer {
   std::vector<CellIndex> cells_to_search_;  ///< empty: no search, or done
   observation::SearchProgress search_progress_;
   std::optional<DenseStart> dense_start_;
+  std::vector<CellIndex> free_cells_;
+  std::vector<CellIndex> probe_cells_;  ///< some of them
+  observation::LostWatch lost_watch_;
+  std::optional<double> lost_probability_;
+  std::optional<localization::RecoveryMonitor> recovery_;
+  double mean_likelihood_ = 0.0;  ///< of the last update
+  std::uint64_t frames_ = 0;
   std::optional<Pose2> odom_from_last_frame_;
   std::optional<Pose2> map_from_last_estimate_;  ///< carried on by odometry
 };

@@ -213,7 +213,19 @@ TEST(RunOutputsTest, FramesAreOneLineEachAndReasonsStayInTheirField) {
   const std::string line = text.substr(text.find('\n') + 1);
   EXPECT_EQ(line,
             "1.500000000,stale,1.000000,-2.000000,90.0000,0.0000,0.0000,0.00,0.000,0.0000,0.00,0,"
-            "0.000000,0.000000,0,0,0,0,\"a 'quoted', two- line reason\"\n");
+            "0.000000,0.000000,0,0,0,0,0,0,,,,,,,,\"a 'quoted', two- line reason\"\n");
+}
+
+TEST(RunOutputsTest, WhatIsKnownOfTheMapAndOfBeingLostStandsInItsColumns) {
+  FrameReport report;
+  report.particles = 300;
+  report.replaced = 20;
+  report.lost_probability = 0.25;
+  report.affine = {{1.25, 0.8, -0.1}, 0.01, 0.02, 0.03};
+  const std::string text = frames_csv(std::vector<FrameReport>{report});
+  EXPECT_NE(text.find(",300,20,0.2500,1.25000,0.01000,0.80000,0.02000,-0.10000,0.03000,\"\"\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST(RunOutputsTest, ParticlesCarryTheReportedHeading) {

@@ -54,7 +54,8 @@ Result<DensePosterior> DensePosterior::compute(ScoreSource& source,
                                                const SimilarityWeightingConfig& config,
                                                std::vector<CellIndex> cells,
                                                const Pose2& base_from_eye,
-                                               const SearchProgress& progress) {
+                                               const SearchProgress& progress,
+                                               const MapAffine& affine) {
   std::ranges::sort(cells);
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   if (cells.empty()) return fail(ErrorCode::kInvalidArgument, "dense posterior: no cells");
@@ -78,6 +79,7 @@ Result<DensePosterior> DensePosterior::compute(ScoreSource& source,
     for (std::size_t i = first; i < end; ++i) {
       request.poses.push_back(PoseGrid::center(posterior.cells_[i]));
     }
+    if (!affine.is_identity()) request.affines.assign(end - first, affine);
     SEMVIEW_TRY(const ScoreBatch batch, source.score(request));
     SEMVIEW_TRY_STATUS(posterior.take(batch, end - first));
     if (progress && !progress(end, posterior.cells_.size())) {

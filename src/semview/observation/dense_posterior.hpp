@@ -47,6 +47,7 @@ class DensePosterior {
   /// @param cells  Where the eye may be; may repeat.
   /// @param progress  Called after each answer with (cells done, cells); may be empty. Returning
   ///        false ends the work with kCancelled.
+  /// @param affine  How the map is taken to be distorted.
   /// @errors kCancelled; kInvalidArgument: no cells; kResourceExhausted: above
   /// `kMaxPosteriorCells`; those of `ScoreSource::score`; kInternal: an answer of another size than
   /// the question.
@@ -54,7 +55,8 @@ class DensePosterior {
                                         const SimilarityWeightingConfig& config,
                                         std::vector<CellIndex> cells,
                                         const Pose2& base_from_eye,
-                                        const SearchProgress& progress = {});
+                                        const SearchProgress& progress = {},
+                                        const MapAffine& affine = {});
 
   /// False if no hypothesis is possible: then there are neither probabilities nor particles.
   bool informative() const { return total_ > 0.0; }

@@ -71,7 +71,10 @@ ScoreRequest ScoreSourceObservationModel::question(
       particles, [](const localization::Particle& one) { return !one.affine.is_identity(); });
   request.poses.reserve(particles.size());
   for (const localization::Particle& particle : particles) {
-    request.poses.push_back(particle.map_from_robot * base_from_eye_);
+    const Pose2& pose = particle.map_from_robot;
+    request.poses.push_back(particle.affine.is_identity()
+                                ? pose * base_from_eye_
+                                : drawn_move(pose, pose * base_from_eye_, particle.affine));
     if (distorted) request.affines.push_back(particle.affine);
   }
   return request;
