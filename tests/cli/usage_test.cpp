@@ -122,6 +122,14 @@ TEST_F(UsageTest, WrongParametersOfTheFilterAreNamedByTheirOption) {
   expect({"--heading", "combined", "--combined-sigma", "0"}, "--combined-sigma");
   expect({"--heading", "combined", "--combined-lost", "2"}, "--combined-lost");
   expect({"--compass-gain", "2"}, "--compass-gain");
+  expect({"--kld", "--kld-err", "0"}, "--kld-err");
+  expect({"--kld", "--min-particles", "9", "--max-particles", "8"}, "--max-particles");
+  expect({"--kld-err", "0.1"}, "--kld-err: needs --kld");
+  expect({"--recovery", "uniform", "--recovery-alpha-fast", "0.01"}, "--recovery-alpha-fast");
+  expect({"--recovery", "prayer"}, "--recovery");
+  expect({"--affine-drift", "0.1"}, "--affine-drift: needs --estimate-map-affine");
+  expect({"--estimate-map-affine", "--affine-exact", "2"}, "--affine-exact");
+  expect({"--estimate-map-affine", "--particles", "30000"}, "--particles: 30000");
 }
 
 TEST_F(UsageTest, AnOutputThatCannotBeWrittenIsToldBeforeTheWork) {

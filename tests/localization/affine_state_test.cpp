@@ -44,6 +44,22 @@ TEST(AffineStateTest, RenewalKeepsMeanAndSpreadAndExactMaps) {
   EXPECT_TRUE(particles[7].affine.is_identity());
 }
 
+TEST(AffineStateTest, ADrawingThatDiffersFromPlaceToPlaceWalksWithTheRootOfTheWay) {
+  const AffineStateConfig config{.drift = 0.02};
+  for (const double way_m : {0.0, 1.0, 4.0}) {
+    ParticleSet particles = many(20000);
+    Rng rng(4);
+    for (Particle& particle : particles) particle.affine = {.a = 1.1};
+    particles[7].affine = {};
+    walk_affines(particles, config, way_m, rng);
+    const AffineEstimate estimate = estimate_affine(particles);
+    EXPECT_NEAR(estimate.k_sigma, 0.02 * std::sqrt(way_m), 0.0005);
+    EXPECT_NEAR(estimate.b_sigma, 0.02 * std::sqrt(way_m), 0.0005);
+    EXPECT_NEAR(estimate.mean.a, 1.1, 0.001);
+    EXPECT_TRUE(particles[7].affine.is_identity());
+  }
+}
+
 TEST(AffineStateTest, TheEstimateIsTheWeightedMeanOfLogarithms) {
   ParticleSet particles = many(2);
   particles[0].weight = 0.75;
@@ -59,6 +75,7 @@ TEST(AffineStateTest, TheEstimateIsTheWeightedMeanOfLogarithms) {
 TEST(AffineStateTest, ParametersOutOfRangeAreNamed) {
   EXPECT_EQ(validate(AffineStateConfig{.identity_share = 1.1}).error().field, "identity_share");
   EXPECT_EQ(validate(AffineStateConfig{.renewal = -0.1}).error().field, "renewal");
+  EXPECT_EQ(validate(AffineStateConfig{.drift = -1.0}).error().field, "drift");
   EXPECT_TRUE(validate(AffineStateConfig{}));
 }
 

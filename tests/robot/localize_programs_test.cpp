@@ -147,6 +147,43 @@ TEST_F(LocalizeProgramsTest, InProcessAndRemoteWriteTheSameBytesForAnyNumberOfTh
   }
 }
 
+TEST_F(LocalizeProgramsTest, WhatIsBeyondThePapersHasTheSameBytesRemoteToo) {
+  const Drive drive = simulate("log", 1, 5);
+  const auto server = serve();
+  const Arguments common{"localize",
+                         "--log",
+                         drive.log,
+                         "--seed",
+                         "7",
+                         "--init",
+                         drive.known_start(),
+                         "--heading",
+                         "combined",
+                         "--estimate-map-affine",
+                         "--affine-drift",
+                         "0.01",
+                         "--kld",
+                         "--recovery",
+                         "uniform",
+                         "--refine",
+                         "--particles",
+                         "200",
+                         "--json"};
+  const auto bytes = [&](Arguments more) {
+    more.insert(more.begin(), common.begin(), common.end());
+    more.insert(more.end(), {"-o", file("est.tum")});
+    EXPECT_EQ(run("semview", more), 0) << last_errors_;
+    return semview::testing::file_bytes(file("est.tum")) +
+           semview::testing::file_bytes(file("est.particles.csv"));
+  };
+  const std::string here = bytes({"--map", kMap});
+  const std::string frames = semview::testing::file_bytes(file("est.frames.csv"));
+  EXPECT_NE(frames.find("lost_probability,scale_x,"), std::string::npos);
+  EXPECT_EQ(frames.find(",,,,,"), std::string::npos) << "every frame tells of the map";
+  EXPECT_EQ(bytes({"--server", server->endpoint(), "--map", "duplex_level1", "--timeout", "60"}),
+            here);
+}
+
 TEST_F(LocalizeProgramsTest, ServerThatGoesAwayLeavesAStaleStretchAndTheRunRecovers) {
   const Drive drive = simulate("log", 1, 40);
   auto server = serve();
