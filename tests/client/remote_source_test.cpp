@@ -5,6 +5,7 @@
 #include "client/client_fixture.hpp"
 #include "client/lib/remote_score_source.hpp"
 #include "client/lib/remote_view_source.hpp"
+#include "semview/core/random.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/observation/cell_posterior.hpp"

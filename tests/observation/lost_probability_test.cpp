@@ -12,14 +12,14 @@ TEST(LostProbabilityTest, FeaturesAreRelativeToOtherPlacesAndDoNotDependOnTheSca
   for (const double scale : {0.01, 1.0, 30.0}) {
     LostWatch watch;
     const LostFeatures good = watch.look({0.8 * scale, 0.6 * scale, 0.2 * scale}, 0.95, 0.1, 0.3);
-    EXPECT_NEAR(good.advantage, 0.5, 1e-12);
-    EXPECT_NEAR(good.advantage_before, 0.5, 1e-12) << "nothing was before the first frame";
+    EXPECT_NEAR(good.advantage, 1.0 / 3.0, 1e-12);
+    EXPECT_NEAR(good.advantage_before, 1.0 / 3.0, 1e-12) << "nothing was before the first frame";
     const LostFeatures bad = watch.look({0.2 * scale, 0.6 * scale, 0.2 * scale}, 0.5, 0.1, 0.3);
     EXPECT_NEAR(bad.advantage, -1.0, 1e-12);
-    EXPECT_NEAR(bad.advantage_before, 0.5, 1e-12);
+    EXPECT_NEAR(bad.advantage_before, 1.0 / 3.0, 1e-12);
     EXPECT_GT(lost_probability(bad), lost_probability(good));
     const LostFeatures third = watch.look({0.2 * scale, 0.6 * scale, 0.2 * scale}, 0.5, 0.1, 0.3);
-    EXPECT_NEAR(third.advantage_before, -0.25, 1e-12);
+    EXPECT_NEAR(third.advantage_before, -1.0 / 3.0, 1e-12);
     EXPECT_GE(lost_probability(third), lost_probability(bad));
   }
 }

@@ -73,7 +73,7 @@ TEST(NearbyScoresTest, WhereTheObservationSaysNoMoreThePoseStays) {
   EXPECT_FALSE(refined_pose(*score_nearby(hill, {1.0, 1.0, 0.0}, {}))) << "a hollow has no top";
 }
 
-TEST(PlaceProbeTest, ComparesTheBelievedPlaceWithPlacesEverywhere) {
+TEST(PlaceProbeTest, ComparesTheBelievedPlaceWithPlacesElsewhere) {
   Hill hill;
   hill.top = {1.05, 1.05, 0.5};
   std::vector<CellIndex> free;
@@ -82,13 +82,17 @@ TEST(PlaceProbeTest, ComparesTheBelievedPlaceWithPlacesEverywhere) {
   }
   const std::vector<CellIndex> cells = probe_cells(free);
   EXPECT_EQ(cells.size(), 64U) << "every fourth along x and y";
-  const auto right = probe_place(hill, hill.top, cells, {});
-  const auto wrong = probe_place(hill, {2.5, 2.5, 0.5}, cells, {});
-  ASSERT_TRUE(right && wrong);
-  EXPECT_GT(right->here, right->anywhere);
-  EXPECT_LT(wrong->here, wrong->anywhere - 0.5);
-  EXPECT_EQ(right->anywhere, wrong->anywhere);
-  EXPECT_LT(right->anywhere_mean, right->anywhere);
+  const auto right = probe_place(hill, {1.2, 0.9, 0.4}, cells, {});
+  const auto wrong = probe_place(hill, {2.6, 2.6, 0.5}, cells, {});
+  const auto turned = probe_place(hill, {1.2, 0.9, 2.0}, cells, {});
+  ASSERT_TRUE(right && wrong && turned);
+  EXPECT_NEAR(right->here, 0.8, 0.01);
+  EXPECT_LT(right->elsewhere, 0.7) << "1 m from the pose";
+  EXPECT_NEAR(wrong->elsewhere, 0.8, 0.001) << "between the probe cells, too";
+  EXPECT_LT(wrong->here, 0.4);
+  EXPECT_LT(turned->here, 0.65) << "only headings near the pose's";
+  EXPECT_EQ(right->mean, wrong->mean);
+  EXPECT_LT(right->mean, right->elsewhere);
 }
 
 TEST(PlaceProbeTest, ManyCellsAreThinnedAndFewAreAllTaken) {

@@ -12,14 +12,15 @@ constexpr double kLeastSigma_m = 0.01;
 constexpr double kLeastContrast = 1e-6;
 
 double advantage(const PlaceScores& scores) {
-  const double contrast = std::max(kLeastContrast, scores.anywhere - scores.anywhere_mean);
-  return std::clamp((scores.here - scores.anywhere) / contrast, -2.0, 1.0);
+  const double contrast =
+      std::max({kLeastContrast, scores.elsewhere - scores.mean, scores.here - scores.mean});
+  return std::clamp((scores.here - scores.elsewhere) / contrast, -1.0, 1.0);
 }
 
 }  // namespace
 
 const LostModel& learned_lost_model() {
-  static const LostModel kModel{0.0, {-3.0, -1.0, -2.0, 1.0, 0.0}};
+  static const LostModel kModel{1.0788, {-5.4217, -3.2036, -5.4218, 0.2376, -0.5812}};
   return kModel;
 }
 

@@ -13,8 +13,8 @@ namespace semview::observation {
 /// observation says of other places, or to the belief itself: none depends on how noisy the
 /// segmentation is or on the scale of the weights.
 struct LostFeatures {
-  /// (here - anywhere) / (anywhere - anywhere_mean): by how much the reported place fits better
-  /// than the best of the places that were probed; in [-2, 1].
+  /// By how much the best place near the reported one fits better than the best one elsewhere, in
+  /// units of how far the better of both stands out from the mean of all places; in [-1, 1].
   double advantage = 0.0;
   double advantage_before = 0.0;     ///< mean over the frames before, the last counts half
   double mode_weight = 0.0;          ///< share of the belief that the estimate speaks for

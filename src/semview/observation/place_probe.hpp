@@ -22,19 +22,21 @@ inline constexpr std::size_t kMostProbeCells = 2000;
 /// left.
 std::vector<CellIndex> probe_cells(std::vector<CellIndex> free_cells);
 
-/// Similarities of the current observation.
+/// Similarities of the current observation. Near is within 1 m.
 struct PlaceScores {
-  double here = 0.0;      ///< the best within 0.2 m and 6° of the pose; that of `anywhere_mean` if
-                          ///< nothing can be seen from there
-  double anywhere = 0.0;  ///< the best of the probe cells, each at its best heading
-  double anywhere_mean = 0.0;
+  double here = 0.0;       ///< the best near the pose, at headings within 30° of its own; that of
+                           ///< `mean` if nothing can be seen from there
+  double elsewhere = 0.0;  ///< the best that is not near; that of `mean` if there is none
+  double mean = 0.0;       ///< of the probe cells, each at its best heading
 };
 
-/// Compares the observation that `source` was given.
+/// Compares the observation that `source` was given: with the cells near the pose, one in 0.2 m;
+/// with the probe cells; and with the cells around the best of these that are not near.
 /// @param map_from_eye  the pose in question
 /// @param cells  not empty
 /// @param affine  how the map is taken to be distorted
-/// @errors those of `ScoreSource::score`; kInternal: an answer of another size than the question.
+/// @errors those of `ScoreSource::score`; kInvalidArgument: a pose beyond the grid; kInternal: an
+/// answer of another size than the question.
 Result<PlaceScores> probe_place(ScoreSource& source,
                                 const Pose2& map_from_eye,
                                 const std::vector<CellIndex>& cells,
