@@ -69,7 +69,7 @@ class Walk {
   int frames_ = 0;
 };
 
-TEST(LocalizerBeyondTest, ARobotThatWasCarriedAwayIsLostAtOnceAndNotBefore) {
+TEST(LocalizerBeyondTest, ARobotThatWasCarriedAwayIsLostAfterTwoFramesAndNotBefore) {
   Walk walk({});
   FrameReport report;
   for (int i = 0; i < 10; ++i) {
@@ -78,6 +78,9 @@ TEST(LocalizerBeyondTest, ARobotThatWasCarriedAwayIsLostAtOnceAndNotBefore) {
     EXPECT_LT(*report.lost_probability, 0.2) << "frame " << i;
   }
   walk.source().truth = {-3.5, -3.5, 2.0};
+  const double before = *report.lost_probability;
+  report = walk.step();
+  EXPECT_GT(*report.lost_probability, before);
   report = walk.step();
   EXPECT_GT(*report.lost_probability, 0.5);
 }

@@ -28,12 +28,11 @@ Result<DistinctCells> distinct_cells(const ScoreRequest& request) {
     const Pose2& pose = request.poses[i];
     const std::optional<CellIndex> cell = PoseGrid::cell(pose.x_m, pose.y_m);
     if (!cell) {
-      return fail(Error{ErrorCode::kInvalidArgument,
-                        fmt::format("pose {} ({:g}, {:g}) is not finite or not on the grid",
-                                    i,
-                                    pose.x_m,
-                                    pose.y_m),
-                        "poses"});
+      return fail(
+          Error{ErrorCode::kInvalidArgument,
+                fmt::format(
+                    "pose {} ({:g}, {:g}) is not finite or not on the grid", i, pose.x_m, pose.y_m),
+                "poses"});
     }
     const MapAffine affine =
         request.affines.empty() ? MapAffine{} : on_affine_grid(request.affines[i]);
@@ -61,9 +60,8 @@ ScoreRequest part_of(const ScoreRequest& whole, std::size_t first, std::size_t e
 }
 
 Status append(const ScoreBatch& part, std::size_t cells, ScoreBatch& whole) {
-  const bool same_scale =
-      whole.sums.empty() || (part.weight_scale == whole.weight_scale &&
-                             part.observed_pixels == whole.observed_pixels);
+  const bool same_scale = whole.sums.empty() || (part.weight_scale == whole.weight_scale &&
+                                                 part.observed_pixels == whole.observed_pixels);
   if (part.sums.size() != cells || part.best_heading.size() != cells ||
       part.curve.size() != cells * PoseGrid::kHeadings || part.weight_scale < 1 ||
       part.observed_pixels < 1 || !same_scale) {
