@@ -21,6 +21,7 @@ cd "$work"
 semview=usr/bin/semview share=usr/share/semview
 
 for file in LICENSE maps/duplex_level1/{map.yaml,ATTRIBUTION.md} maps/duplex_building/semantic.glb \
+  models/deeplab_ade20k32/{model.yaml,deeplabv3_mnv2_ade20k32_fp32.onnx,LICENSE.md,ATTRIBUTION.md} \
   weights/paper2017_ade20k150.csv vocabularies/ade20k150/{LICENSE,names.tsv} \
   python/semview/{client,v1/envelope_pb2}.py; do
   [[ -s "$share/$file" ]] || die "$share/$file is missing"
@@ -35,6 +36,12 @@ cmp <(grep -v '^#' named.csv) <(grep -v '^#' from_file.csv) || die "the two voca
 "$semview" weights check "$share/maps/duplex_level1" "$share/maps/duplex_level1/weights.csv"
 "$semview" view "$share/maps/tutorial" --pose 2,3,90 --labels ids.png >/dev/null
 [[ -s ids.png ]] || die "semview view wrote no picture"
+# The network is found by its name, beside the programs.
+"$semview" view "$share/maps/tutorial" --pose 2,3,90 --pinhole 50,50,60,45,120,90 --photo photo.png >/dev/null
+printf 'format: 1\ncameras: [{pinhole: {width: 120, height: 90, fx: 50, fy: 50, cx: 60, cy: 45}}]\n' >rig.yaml
+"$semview" observe photo.png --camera rig.yaml -o obs --overlay overlay.png
+"$semview" score "$share/maps/duplex_level1" --obs obs --weights "$share/maps/duplex_level1/weights.csv" \
+  --pose 4.5,-13.2,0 >/dev/null
 
 usr/bin/semview-server --map "$share/maps/tutorial" --bind 'tcp://127.0.0.1:*' >server.out 2>server.log &
 server_pid=$!

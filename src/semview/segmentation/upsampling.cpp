@@ -11,6 +11,10 @@
 namespace semview::segmentation {
 namespace {
 
+/// Logits this far behind the best add nothing to a confidence of 8 bits, even 254 of them
+/// (254 · e^-16 < 3e-5); of 150 classes that is nearly all of them, and the exponential is what costs.
+constexpr float kNegligible = -16.0F;
+
 /// Between which two source pixels a target pixel lies.
 struct Tap {
   std::size_t low = 0;
@@ -96,7 +100,10 @@ class RowReducer {
     std::ranges::fill(sum_, 0.0F);
     for (std::size_t k = 0; k < static_cast<std::size_t>(planes_.channels); ++k) {
       const std::span<const float> row = values(k);
-      for (std::size_t c = 0; c < row.size(); ++c) sum_[c] += std::exp(row[c] - best_[c]);
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        const float behind = row[c] - best_[c];
+        if (behind > kNegligible) sum_[c] += std::exp(behind);
+      }
     }
   }
 
