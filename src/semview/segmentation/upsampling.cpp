@@ -12,7 +12,8 @@ namespace semview::segmentation {
 namespace {
 
 /// Logits this far behind the best add nothing to a confidence of 8 bits, even 254 of them
-/// (254 · e^-16 < 3e-5); of 150 classes that is nearly all of them, and the exponential is what costs.
+/// (254 · e^-16 < 3e-5); of 150 classes that is nearly all of them, and the exponential is what
+/// costs.
 constexpr float kNegligible = -16.0F;
 
 /// Between which two source pixels a target pixel lies.
