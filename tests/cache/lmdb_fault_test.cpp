@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 #include <lmdb.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -109,6 +112,67 @@ TEST_F(LmdbFaultTest, AFailingWriteStopsStoringAndServesOn) {
   const auto report = (*store)->verify();
   ASSERT_TRUE(report.has_value()) << report.error().message;
   EXPECT_EQ(report->sound, report->records);
+}
+
+/// Makes `at` a file system of `kibibytes` for this process alone; false where that is not allowed.
+bool mount_small_disk(const std::filesystem::path& at, int kibibytes) {
+  if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+  const std::string size = "size=" + std::to_string(kibibytes) + "k";
+  return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+         mount("tmpfs", at.c_str(), "tmpfs", 0, size.c_str()) == 0;
+}
+
+TEST_F(LmdbFaultTest, AFullDiskWithoutALockFileIsAnErrorAndNotASignal) {
+  namespace fs = std::filesystem;
+  {
+    const auto store = LmdbStore::open({folder_.path()});
+    ASSERT_TRUE(store.has_value());
+    (*store)->put(keyspace_, cells_, views_);
+  }
+  const fs::path disk = folder_ / "disk";
+  fs::create_directory(disk);
+  constexpr int kNotAllowed = 77;
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (!mount_small_disk(disk, 512)) _exit(kNotAllowed);
+    fs::copy_file(data_file(), disk / "data.mdb");
+    std::ofstream(disk / "in_use.lock").close();
+    std::ofstream filler(disk / "filler", std::ios::binary);
+    const std::string block(4096, 'x');
+    while (filler.write(block.data(), 4096).flush()) {
+    }
+    const auto store = LmdbStore::open({disk});
+    if (store) _exit(2);
+    if (store.error().code != ErrorCode::kResourceExhausted) _exit(3);
+    if (store.error().message.find("lock.mdb: No space left") == std::string::npos) _exit(4);
+    filler.close();
+    fs::remove(disk / "filler");
+    const auto again = LmdbStore::open({disk});
+    if (!again || (*again)->get(keyspace_, cells_)[0] == nullptr) _exit(5);
+    _exit(0);
+  }
+  int status = 1;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
+  if (WEXITSTATUS(status) == kNotAllowed) GTEST_SKIP() << "mounting is not allowed here";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST_F(LmdbFaultTest, EveryBlockOfTheLockFileIsOnTheDisk) {
+  const auto store = LmdbStore::open({folder_.path()});
+  ASSERT_TRUE(store.has_value());
+  struct stat there {};
+  ASSERT_EQ(stat((folder_ / "lock.mdb").c_str(), &there), 0);
+  EXPECT_GE(there.st_blocks * 512, there.st_size);
+}
+
+TEST_F(LmdbFaultTest, ADirectoryThatCannotBeMadeSaysWhy) {
+  std::ofstream(folder_ / "file").close();
+  const auto store = LmdbStore::open({folder_ / "file" / "cache"});
+  ASSERT_FALSE(store.has_value());
+  EXPECT_NE(store.error().message.find("cannot be made: Not a directory"), std::string::npos)
+      << store.error().message;
 }
 
 TEST_F(LmdbFaultTest, ADirectoryThatMayOnlyBeReadIsReadAndLeftAsItIs) {

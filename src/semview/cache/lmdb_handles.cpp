@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "semview/core/log.hpp"
@@ -21,6 +22,8 @@ constexpr unsigned kMaxReaders = 1022;  // threads that read at once, all proces
 constexpr mdb_mode_t kFileMode = 0644;
 constexpr std::size_t kEntriesACommit = 20'000;
 constexpr auto kLockPoll = std::chrono::milliseconds(20);
+/// What LMDB extends its lock file to: a cache line a reader and three for the rest.
+constexpr off_t kLockFileBytes = 64 * (kMaxReaders + 2);
 
 ErrorCode code_of(int code) {
   switch (code) {
@@ -47,6 +50,39 @@ ErrorCode code_of(int code) {
   }
 }
 
+Status make_directory(const std::filesystem::path& directory) {
+  std::error_code made;
+  std::filesystem::create_directories(directory, made);
+  if (!made) return {};
+  return fail(
+      lmdb_error(made.value(), fmt::format("cache {}: cannot be made", directory.string())));
+}
+
+/// LMDB only extends its lock file and then writes to it through a map: on a full disk that is a
+/// SIGBUS and no error. So its blocks are claimed first.
+///
+/// Not while this process has the environment open: closing the file would drop LMDB's own claim.
+Status claim_lock_file(const std::filesystem::path& directory) {
+  const std::filesystem::path file = directory / "lock.mdb";
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kFileMode);
+  if (descriptor < 0) {
+    return fail(lmdb_error(errno, fmt::format("cache {}: lock.mdb", directory.string())));
+  }
+  constexpr off_t kBlockBytes = 512;  // what st_blocks counts, on every file system
+  struct stat there {};
+  int code = ::fstat(descriptor, &there) == 0 ? 0 : errno;
+  // A file that is whole may be in use by others, and is left alone.
+  if (code == 0 &&
+      (there.st_size < kLockFileBytes || there.st_blocks * kBlockBytes < kLockFileBytes)) {
+    code = ::posix_fallocate(descriptor, 0, kLockFileBytes);
+  }
+  ::close(descriptor);
+  if (code == 0) return {};
+  Error error = lmdb_error(code, fmt::format("cache {}: lock.mdb", directory.string()));
+  error.hint = fmt::format("make room for {} KiB there", kLockFileBytes / 1024);
+  return fail(std::move(error));
+}
+
 }  // namespace
 
 Error lmdb_error(int code, std::string_view what) {
@@ -71,11 +107,8 @@ Result<Cursor> Cursor::open(const Transaction& transaction, MDB_dbi database) {
 
 Result<Environment> Environment::open(const std::filesystem::path& directory,
                                       std::uint64_t map_bytes) {
-  std::error_code made;
-  std::filesystem::create_directories(directory, made);
-  if (made) {
-    return fail(lmdb_error(made.value(), fmt::format("cache {}", directory.string())));
-  }
+  SEMVIEW_TRY_STATUS(make_directory(directory));
+  SEMVIEW_TRY_STATUS(claim_lock_file(directory));
   // NOMETASYNC: a power cut may lose the last commits, never the file's order; losing views costs
   // only casting them again.
   return open(directory, map_bytes, MDB_NOMETASYNC);
@@ -176,8 +209,7 @@ Status BatchWriter::sync() {
 }
 
 Result<DirectoryLock> DirectoryLock::take(const std::filesystem::path& directory) {
-  std::error_code made;
-  std::filesystem::create_directories(directory, made);
+  SEMVIEW_TRY_STATUS(make_directory(directory));
   const std::filesystem::path file = directory / "in_use.lock";
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kFileMode);
   if (descriptor < 0) {
@@ -189,7 +221,8 @@ Result<DirectoryLock> DirectoryLock::take(const std::filesystem::path& directory
   // Another process uses the directory, rewrites it, or is about to be sure of its data file; the
   // last is soon done.
   while (::flock(descriptor, LOCK_SH | LOCK_NB) != 0) {
-    if (std::filesystem::exists(directory / kRewritingFolder, made)) {
+    std::error_code ignored;
+    if (std::filesystem::exists(directory / kRewritingFolder, ignored)) {
       return fail(Error{ErrorCode::kFailedPrecondition,
                         fmt::format("cache {}: is being compacted", directory.string()),
                         {},
