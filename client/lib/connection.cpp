@@ -19,11 +19,9 @@ namespace {
 using Milliseconds = std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr int kReconnectInterval_ms = 50;
-constexpr int kReconnectIntervalMax_ms = 500;
+constexpr int kReconnectInterval_ms = 50, kReconnectIntervalMax_ms = 500;
 // A peer that vanished without a word is noticed after this.
-constexpr int kHeartbeatInterval_ms = 1000;
-constexpr int kHeartbeatTimeout_ms = 3000;
+constexpr int kHeartbeatInterval_ms = 1000, kHeartbeatTimeout_ms = 3000;
 /// A question whether the server is there is given this long, or `timeout`, before the line is
 /// renewed.
 constexpr Milliseconds kProbeAge{1000};
@@ -54,6 +52,7 @@ Status validate(const ConnectionConfig& config) {
     return wrong("timeout",
                  fmt::format("timeout {} ms; expected 1 ms to 1 h", config.timeout.count()));
   }
+  if (config.contact < Milliseconds{1}) return wrong("contact", "must be at least 1 ms");
   if (config.attempts < 1) return wrong("attempts", "attempts must be at least 1");
   if (config.client_name.size() > protocol::kMaxClientNameBytes) {
     return wrong("client_name",
@@ -82,7 +81,8 @@ class Connection::Line {
     for (int attempt = 1;; ++attempt) {
       const bool last = attempt >= attempts;
       send(method, body, deadline);
-      Result<std::optional<Reply>> reply = wait_for_reply(deadline);
+      Result<std::optional<Reply>> reply =
+          wait_for_reply(deadline, SteadyClock::now() + config_.contact);
       if (!reply && reply.error().code == ErrorCode::kDeadlineExceeded) return fail(too_late());
       if (!reply) return fail(std::move(reply).error());
       if (!*reply) {
@@ -116,7 +116,7 @@ class Connection::Line {
       probe_sent_ = SteadyClock::now();
       send("Hello", "", *probe_sent_ + config_.timeout);
     }
-    const Result<std::optional<Reply>> reply = wait_for_reply(until);
+    const Result<std::optional<Reply>> reply = wait_for_reply(until, until);
     // Nothing yet: the question stays under way.
     if (!reply && reply.error().code == ErrorCode::kDeadlineExceeded) return false;
     probe_sent_.reset();
@@ -169,10 +169,12 @@ class Connection::Line {
   }
 
   /// The reply to the last request; `nullopt`: the line broke before it came.
-  /// @errors kDeadlineExceeded: neither happened in time; kDataLoss: a reply that cannot be read.
-  Result<std::optional<Reply>> wait_for_reply(SteadyClock::time_point deadline) {
+  /// @errors kDeadlineExceeded: neither in time, or no line by then; kDataLoss: unreadable.
+  Result<std::optional<Reply>> wait_for_reply(SteadyClock::time_point deadline,
+                                              SteadyClock::time_point contact_deadline) {
     for (;;) {
-      const auto left = deadline - SteadyClock::now();
+      const auto until = connected_ ? deadline : std::min(deadline, contact_deadline);
+      const auto left = until - SteadyClock::now();
       if (left <= SteadyClock::duration::zero()) return fail(ErrorCode::kDeadlineExceeded, "");
       std::array<zmq::pollitem_t, 2> items = {zmq::pollitem_t{socket_.handle(), 0, ZMQ_POLLIN, 0},
                                               zmq::pollitem_t{monitor_.handle(), 0, ZMQ_POLLIN, 0}};
@@ -187,13 +189,14 @@ class Connection::Line {
     const bool was_connected = connected_;
     // A late reply must not be taken for that of the next request.
     connect();
+    const std::string& server = config_.endpoint;
     if (was_connected) {
-      return {
-          ErrorCode::kDeadlineExceeded,
-          fmt::format("{} did not answer within {} ms", config_.endpoint, config_.timeout.count())};
+      return {ErrorCode::kDeadlineExceeded,
+              fmt::format("{} did not answer within {} ms", server, config_.timeout.count())};
     }
+    const auto waited = std::min(config_.timeout, config_.contact);
     return {ErrorCode::kUnavailable,
-            fmt::format("no server at {} within {} ms", config_.endpoint, config_.timeout.count()),
+            fmt::format("no server at {} within {} ms", server, waited.count()),
             "",
             "is semview-server running there?"};
   }

@@ -16,6 +16,9 @@ struct ConnectionConfig {
   std::string endpoint = "tcp://127.0.0.1:5560";
   /// Longest wait for one call, its repetitions included; also sent as the server's time budget.
   std::chrono::milliseconds timeout{5000};
+  /// Of `timeout`, the longest wait for a line to the server, at first and after each break: a
+  /// server at work may be waited for long, but nobody waits long for one that is not there.
+  std::chrono::milliseconds contact{5000};
   /// How often a call that is safe to repeat is sent while `timeout` lasts; at least 1.
   int attempts = 3;
   std::string client_name = "semview";  ///< shown in the server's log; at most 64 bytes
@@ -47,7 +50,8 @@ class Connection {
 
   /// One request: the serialised body of `method`'s request message → that of its reply message.
   /// @errors the server's own; kDeadlineExceeded: the server answered nothing while `timeout`
-  /// lasted although it was reached before; kUnavailable: it was never reached, or is gone;
+  /// lasted although it was reached before; kUnavailable: it was never reached, or is gone, for
+  /// `contact`;
   /// kDataLoss: a reply that cannot be read.
   Result<std::string> call(std::string_view method, std::string_view body, Repeat repeat);
 

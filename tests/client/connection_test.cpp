@@ -46,6 +46,19 @@ TEST(ConnectionConfigTest, NobodyThereIsUnavailableAfterTheTimeout) {
   EXPECT_EQ(maps.error().code, ErrorCode::kUnavailable);
 }
 
+TEST(ConnectionConfigTest, AServerThatIsNotThereIsNotWaitedForAsOneAtWork) {
+  ConnectionConfig config;
+  config.endpoint = "tcp://127.0.0.1:1";
+  config.timeout = std::chrono::hours(1);
+  config.contact = std::chrono::milliseconds(100);
+  auto connection = Connection::open(config);
+  ASSERT_TRUE(connection);
+  const auto maps = client::list_maps(*connection);
+  ASSERT_FALSE(maps);
+  EXPECT_EQ(maps.error().code, ErrorCode::kUnavailable);
+  EXPECT_EQ(maps.error().message, "no server at tcp://127.0.0.1:1 within 100 ms");
+}
+
 using ConnectionTest = ClientFixture;
 
 TEST_F(ConnectionTest, MapsComeThrough) {
@@ -207,6 +220,19 @@ TEST_F(ConnectionToFakeTest, WhatMustNotHappenTwiceIsSentOnce) {
   auto answer = ask(*connection, Repeat::kNever);
   ASSERT_TRUE(receive());
   const std::string endpoint = config_.endpoint;
+  router_.reset();  // the line breaks while the request is under way
+  const auto result = answer.get();
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kUnavailable);
+}
+
+TEST_F(ConnectionToFakeTest, AServerAtWorkIsWaitedForAndNotOnceItIsGone) {
+  config_.timeout = std::chrono::hours(1);
+  config_.contact = std::chrono::milliseconds(200);
+  auto connection = Connection::open(config_);
+  auto answer = ask(*connection, Repeat::kSafe);
+  ASSERT_TRUE(receive());
+  EXPECT_EQ(answer.wait_for(2 * config_.contact), std::future_status::timeout);
   router_.reset();  // the line breaks while the request is under way
   const auto result = answer.get();
   ASSERT_FALSE(result);
