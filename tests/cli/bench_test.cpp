@@ -91,6 +91,8 @@ TEST_F(BenchTest, ALoadOutOfBoundsIsRefusedByItsOption) {
   expect_usage({"--rate", "0"}, "--rate 0: expected above 0 to 100 Hz");
   expect_usage({"--seconds", "-1"}, "--seconds -1: expected above 0 to 600");
   expect_usage({"--seconds", "61", "--search"}, "--seconds 61: expected at most 60 with --search");
+  expect_usage({"--seconds", "0.001", "--search"},
+               "--seconds 0.001: a robot has no time for a cycle");
   expect_usage({"--server", "tcp://192.0.2.1:5560"},
                "--server tcp://192.0.2.1:5560: a load is for a server on this machine");
 }
