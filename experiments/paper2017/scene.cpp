@@ -132,9 +132,18 @@ const std::vector<std::uint32_t>& Scene::square(int column, int row) const {
 SceneHit Scene::cast(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction) const {
   SceneHit hit;
   hit.range_m = kNever;
+  if (primitives_.empty()) return hit;
+  Stretch inside;
+  cut_by_slab(origin_m.x(), direction.x(), min_x_m_, min_x_m_ + kSquare_m * columns_, inside);
+  cut_by_slab(origin_m.y(), direction.y(), min_y_m_, min_y_m_ + kSquare_m * rows_, inside);
+  if (inside.enter > inside.leave || inside.leave < 0.0 || inside.enter == kNever) return hit;
   // From square to square (Amanatides, Woo 1987) until the nearest hit lies before the next one.
-  int column = square_of(origin_m.x() - min_x_m_);
-  int row = square_of(origin_m.y() - min_y_m_);
+  const double from = std::max(0.0, inside.enter);
+  const auto first_square = [from](double origin, double along, double low, int count) {
+    return std::clamp(square_of(origin + from * along - low), 0, count - 1);
+  };
+  int column = first_square(origin_m.x(), direction.x(), min_x_m_, columns_);
+  int row = first_square(origin_m.y(), direction.y(), min_y_m_, rows_);
   const int step_x = direction.x() > 0.0 ? 1 : -1;
   const int step_y = direction.y() > 0.0 ? 1 : -1;
   const auto until = [](double origin, double along, double edge) {
