@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// `semview evaluate run`.
+/// `semview evaluate`, and `semview evaluate run`.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "evaluate_verbs.hpp"
 #include "plan_backdrop.hpp"
 #include "semview/evaluation/particles_file.hpp"
 #include "semview/evaluation/run_metrics.hpp"
@@ -279,6 +280,7 @@ void add_evaluate_verb(CLI::App& app, int& exit_code) {
       "Example: semview evaluate run --log run1 run1/est.tum --map maps/duplex_level1 "
       "--svg run1.svg");
   verb->callback([options, &exit_code] { exit_code = report(run(*options)); });
+  add_evaluate_paper2017_verb(*evaluate_verb, exit_code);
 }
 
 }  // namespace semview::cli

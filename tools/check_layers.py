@@ -77,15 +77,17 @@ MODULES = {
     "client/lib": Module(VIEW | {"similarity", "observation", "protocol"}, {"ZeroMQ"}),
     "client/load": Module(VIEW | {"similarity", "protocol", "client/lib"}, {"ZeroMQ"}),
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
+    "experiments/paper2017": Module(SERVICE | {"service", "localization", "observation", "evaluation",
+                                               "picture"}, set()),
     "cli": Module(SERVICE | {"service", "segmentation", "picture", "localization", "observation", "simulation",
                              "evaluation", "benchmark", "server", "client/lib", "client/load",
-                             "client/robot"},
+                             "client/robot", "experiments/paper2017"},
                   {"CLI11", "nlohmann-json"}),
 }
 PROGRAMS = {"server", "cli"}
 # CMake names of modules that are not `semview::` and the name.
 TARGETS = {"client": "client/lib", "load": "client/load", "robot": "client/robot",
-           "messages": "protocol"}
+           "messages": "protocol", "paper2017": "experiments/paper2017"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SYSTEM = re.compile(r"^([a-z0-9_]+|sys/[a-z]+\.h|"
@@ -106,7 +108,7 @@ def module_of_header(header, own):
     if parts[0] == "semview":
         # The messages are the protocol's, and generated.
         return "protocol" if parts[1] == "v1" else parts[1]
-    if parts[0] == "client":
+    if parts[0] in {"client", "experiments"}:
         return "/".join(parts[:2])
     return parts[0] if parts[0] in PROGRAMS and len(parts) > 1 else None
 
@@ -195,7 +197,7 @@ def check_document(root):
     name = file.relative_to(root)
     rows = {}
     for number, line in enumerate(file.read_text().splitlines(), start=1):
-        match = re.match(r"\| *\d+ *\| *`([a-z/]+?)/?` *\|.*\|([^|]*)\|$", line)
+        match = re.match(r"\| *\d+ *\| *`([a-z0-9/]+?)/?` *\|.*\|([^|]*)\|$", line)
         if match:
             libraries = {word.strip() for word in match.group(2).split(",")} - {""}
             rows[match.group(1)] = (number, libraries)

@@ -9,7 +9,7 @@
 
 namespace semview::paper2017 {
 
-/// Errors of level 1; docs/reproduction.md tells how they were chosen.
+/// Errors of level 1, and the level that was chosen: docs/reproduction.md tells how.
 struct LabelNoiseConfig {
   double object_error = 0.5;  ///< share of objects called something else; half of these always,
                               ///< half in single views
@@ -18,7 +18,7 @@ struct LabelNoiseConfig {
   double border_shift_rad = 0.0157;  ///< σ of how far off a border is
   double border_wave_rad = 0.10;     ///< length over which that changes
   double salt_share = 0.01;          ///< single pixels
-  double level = 1.0;                ///< scales all shares and shifts; 0: no error
+  double level = 0.2;                ///< scales all shares and shifts; 0: no error
 };
 
 /// The labels that a network gives for what `view` truly shows.

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "semview/core/result.hpp"
 #include "semview/localization/affine_state.hpp"
 #include "semview/localization/heading_strategy.hpp"
 #include "semview/localization/pose_estimate.hpp"
@@ -31,21 +33,29 @@ struct Method {
   localization::HeadingStrategy heading = localization::HeadingStrategy::kCompass;
   /// Whether the compass turns the next odometry step: 0 never, 1 always.
   double compass_gain = 0.0;
-  observation::SimilarityWeightingConfig weighting = {.power = 12.0};
+  observation::SimilarityWeightingConfig weighting = {.power = 16.0};
   observation::CombinedHeadingConfig combined = {};
-  localization::PositionNoiseConfig motion = {};
+  localization::PositionNoiseConfig motion = {.heading_sigma_rad = rad_from_deg(0.3)};
   std::optional<localization::AffineStateConfig> affine = {};  ///< none: the map is exact
-  double start_sigma_m = 0.25;
+  double start_sigma_m = 0.1;
   double start_heading_sigma_rad = rad_from_deg(3.0);
   /// The estimate that tables call "best".
   localization::EstimateKind estimate = localization::EstimateKind::kHighestWeight;
 };
 
-/// The frozen baselines and ours.
+/// The frozen baselines, the steps from them to ours, and ours without one idea each (ids that
+/// begin with "without_").
 const std::vector<Method>& all_methods();
 
 /// Null if there is none of that id.
 const Method* find_method(std::string_view id);
+
+/// Methods by their ids; "ablation" stands for ours and ours without one idea each.
+/// @errors kInvalidArgument: an id that there is not; the message lists those that there are.
+Result<std::vector<Method>> methods_by_id(std::span<const std::string> ids);
+
+/// Every setting in one line: equal methods have equal texts.
+std::string describe(const Method& method);
 
 enum class Start {
   kLocal,   ///< 500 particles around the known pose

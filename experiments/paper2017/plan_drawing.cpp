@@ -220,6 +220,20 @@ const std::vector<std::string>& map_class_names() {
   return kNames;
 }
 
+std::string_view name(ClassSubset classes) {
+  switch (classes) {
+    case ClassSubset::kAll:
+      return "all";
+    case ClassSubset::kConstructionExtended:
+      return "extended";
+    case ClassSubset::kConstructionBasic:
+      return "basic";
+    case ClassSubset::kFurniture:
+      return "furniture";
+  }
+  return "";
+}
+
 bool has_class(ClassSubset subset, const std::string& name) {
   const auto one_of = [&](std::initializer_list<const char*> names) {
     return std::ranges::any_of(names, [&](const char* one) { return name == one; });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "layout.hpp"
@@ -19,6 +20,9 @@ enum class ClassSubset {
   kConstructionBasic,     ///< wall, dividing wall, floor
   kFurniture,             ///< table, chair, cupboard, sideboard, sink
 };
+
+/// "all", "extended", "basic" or "furniture".
+std::string_view name(ClassSubset classes);
 
 struct PlanConfig {
   double resolution_m = 0.02;

@@ -2,6 +2,9 @@
 #include "rows.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "semview/core/check.hpp"
 
 namespace semview::paper2017 {
 namespace {
@@ -32,6 +35,32 @@ Row of_classes(std::string id, std::string title, ClassSubset classes, const Pri
   row.classes = classes;
   row.printed = printed;
   return row;
+}
+
+void set_goals(std::vector<Row>& rows) {
+  // In the order of the rows.
+  constexpr std::array<Goal, 18> kGoals = {{
+      {0.06, 2.5},
+      {0.07, 2.5},
+      {0.08, 4.0},
+      {0.09, 5.0},
+      {0.10, 6.0},
+      {0.12, 7.0},
+      {0.07, 2.0},
+      {0.08, 2.5},
+      {0.09, 3.0},
+      {0.10, 4.0},
+      {0.11, 5.0},
+      {0.07, 2.0},
+      {0.12, 2.5},
+      {0.15, 2.5},
+      {0.20, 3.0},
+      {0.09, 2.5},
+      {0.09, 1.5},
+      {0.30, 4.0},
+  }};
+  SEMVIEW_CHECK(rows.size() == kGoals.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].goal = kGoals[i];
 }
 
 std::vector<Row> make_rows() {
@@ -79,6 +108,7 @@ std::vector<Row> make_rows() {
                             "Classes furniture",
                             ClassSubset::kFurniture,
                             {2.674, 1.069, 0.678, 0.266, 0.260}));
+  set_goals(rows);
   return rows;
 }
 

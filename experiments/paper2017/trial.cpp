@@ -2,6 +2,7 @@
 #include "trial.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -124,7 +125,8 @@ Result<std::vector<StopRecord>> run_trial(const RowWorld& world,
                                           const similarity::WeightMatrix& weights,
                                           ViewSource& views,
                                           ThreadPool& pool,
-                                          std::uint64_t seed) {
+                                          std::uint64_t seed,
+                                          const Clock& clock) {
   Rng start_rng(seed, "start");
   localization::ParticleFilterConfig config;
   config.resample_threshold = 1.0;
@@ -153,9 +155,13 @@ Result<std::vector<StopRecord>> run_trial(const RowWorld& world,
     if (i > 0) filter.predict(inverse(world.odometry[i - 1]) * world.odometry[i]);
     observation::ScoreSourceObservationModel& used = i == 0 ? first_model : model;
     SEMVIEW_TRY_STATUS(used.set_observation(world.observations[i]));
+    const TimePoint before = clock.now();
     SEMVIEW_TRY(const localization::UpdateReport report, filter.update(used));
+    const std::chrono::duration<double> taken = clock.now() - before;
     StopRecord record = measure(filter.particles(), method, world.truth[i]);
     record.stop = static_cast<int>(i) + 1;
+    record.update_s = taken.count();
+    record.origins = used.last_scores().origins;
     record.effective_sample_size = report.effective_sample_size;
     record.odometry_m = distance_m(map_from_odom * world.odometry[i], world.truth[i]);
     records.push_back(record);

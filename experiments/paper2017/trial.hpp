@@ -9,6 +9,7 @@
 
 #include "methods.hpp"
 #include "rows.hpp"
+#include "semview/core/clock.hpp"
 #include "semview/core/result.hpp"
 #include "semview/core/thread_pool.hpp"
 #include "semview/geometry/affine.hpp"
@@ -33,6 +34,8 @@ struct StopRecord {
   MapAffine affine;              ///< as estimated; the identity without a distortion in the state
   std::size_t particles = 0;
   double effective_sample_size = 0.0;
+  double update_s = 0.0;  ///< how long weighing the particles took; differs from run to run
+  ViewOrigins origins;    ///< of the views that were asked for
 };
 
 /// A world as one row sees it: observations cut to the row's field of view, poses on its map.
@@ -61,6 +64,7 @@ Result<std::vector<StopRecord>> run_trial(const RowWorld& world,
                                           const similarity::WeightMatrix& weights,
                                           ViewSource& views,
                                           ThreadPool& pool,
-                                          std::uint64_t seed);
+                                          std::uint64_t seed,
+                                          const Clock& clock = steady_clock());
 
 }  // namespace semview::paper2017

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "scene_builder.hpp"
 #include "semview/core/random.hpp"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kRobotRadius_m = 0.28;
 constexpr int kTries = 400;
+constexpr int kPlacesToChooseFrom = 4;
 constexpr std::int32_t kPersonObject = 1 << 20;
 
 /// A free place in a part of a room, given by shares of its length and depth.
@@ -39,8 +42,14 @@ std::vector<Pose2> plan_way(const Layout& layout, const Scene& scene, Rng& rng) 
     return (x_m - corridor.min_x_m) / length_m;
   };
   std::vector<Pose2> way;
+  // Of a few places the one nearest to where the robot is: it does not criss-cross rooms.
   const auto stop = [&](const Room& in, double from_x, double to_x) {
-    way.push_back(free_place(scene, in, from_x, to_x, rng));
+    Pose2 nearest = free_place(scene, in, from_x, to_x, rng);
+    for (int i = 1; i < kPlacesToChooseFrom && !way.empty(); ++i) {
+      const Pose2 other = free_place(scene, in, from_x, to_x, rng);
+      if (distance_m(other, way.back()) < distance_m(nearest, way.back())) nearest = other;
+    }
+    way.push_back(nearest);
   };
   stop(lab_a, 0.08, 0.35);
   stop(lab_a, 0.35, 0.65);
@@ -112,6 +121,45 @@ SceneView look(const Scene& scene, const Pose2& robot, const CameraConfig& confi
 }
 
 }  // namespace
+
+std::string describe(const WorldConfig& config) {
+  const LayoutConfig& layout = config.layout;
+  const CameraConfig& camera = config.camera;
+  const LabelNoiseConfig& noise = config.noise;
+  return fmt::format(
+      "floor: {:g} x {:g} m; missing in map {:g}, in world {:g}; chairs off {:g} m, {:g} rad; "
+      "doors in another state {:g}; clutter {} + {}\n"
+      "camera: {:g} x {:g} deg, pixel {:g} deg; height {:g} m, off {:g} m; tilt {:g} deg; people "
+      "in {:g}\n"
+      "odometry: scale {:g}, drift {:g} rad a step\n"
+      "labels: level {:g} of objects {:g}, patches {:g} of {:g} rad, borders {:g} rad over {:g} "
+      "rad, salt {:g}\n",
+      layout.width_m,
+      layout.depth_m,
+      layout.missing_in_map,
+      layout.missing_in_world,
+      layout.chair_shift_m,
+      layout.chair_turn_rad,
+      layout.other_door_state,
+      layout.floor_clutter,
+      layout.wall_clutter,
+      deg_from_rad(camera.width_rad),
+      deg_from_rad(camera.height_rad),
+      deg_from_rad(camera.pixel_rad),
+      camera.height_m,
+      camera.height_sigma_m,
+      deg_from_rad(camera.tilt_sigma_rad),
+      camera.person_share,
+      config.odometry.scale_sigma,
+      config.odometry.drift_sigma_rad,
+      noise.level,
+      noise.object_error,
+      noise.patch_share,
+      noise.patch_rad,
+      noise.border_shift_rad,
+      noise.border_wave_rad,
+      noise.salt_share);
+}
 
 World make_world(const WorldConfig& config, const WorldSeeds& seeds) {
   World world;

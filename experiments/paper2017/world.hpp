@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "label_noise.hpp"
@@ -26,8 +27,8 @@ struct CameraConfig {
 };
 
 struct OdometryConfig {
-  double scale_sigma = 0.018;      ///< of one factor for a whole drive
-  double drift_sigma_rad = 0.016;  ///< of the heading a step
+  double scale_sigma = 0.030;      ///< of one factor for a whole drive
+  double drift_sigma_rad = 0.027;  ///< of the heading a step
 };
 
 struct WorldConfig {
@@ -36,6 +37,9 @@ struct WorldConfig {
   OdometryConfig odometry;
   LabelNoiseConfig noise;
 };
+
+/// Every setting, a line each: equal configurations have equal texts.
+std::string describe(const WorldConfig& config);
 
 /// Seeds of what is random, so that one can be changed and the others kept.
 struct WorldSeeds {

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+/// `semview evaluate paper2017`.
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "evaluate_verbs.hpp"
+#include "experiments/paper2017/experiment.hpp"
+#include "experiments/paper2017/report.hpp"
+#include "experiments/paper2017/report_files.hpp"
+#include "experiments/paper2017/results.hpp"
+#include "experiments/paper2017/revision.hpp"
+#include "semview/core/clock.hpp"
+#include "site_options.hpp"
+#include "verb.hpp"
+
+namespace semview::cli {
+namespace {
+
+struct Options {
+  paper2017::ExperimentConfig experiment;
+  std::string worlds;
+  std::vector<std::string> starts;
+  std::string out = "paper2017_results";
+  bool quick = false;
+};
+
+/// `1..6` or `3`.
+Result<std::vector<std::uint64_t>> parse_worlds(const std::string& text) {
+  const auto number = [](std::string_view digits) -> std::optional<std::uint64_t> {
+    std::uint64_t value = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, status] = std::from_chars(digits.data(), end, value);
+    if (status != std::errc() || stop != end) return std::nullopt;
+    return value;
+  };
+  const std::size_t dots = text.find("..");
+  const std::optional<std::uint64_t> first = number(std::string_view(text).substr(0, dots));
+  const std::optional<std::uint64_t> last =
+      dots == std::string::npos ? first : number(std::string_view(text).substr(dots + 2));
+  constexpr std::uint64_t kMost = 100;
+  if (!first || !last || *last < *first || *last - *first >= kMost) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("--worlds {}: expected a seed or a range such as 1..6 of at most "
+                                  "{} worlds",
+                                  text,
+                                  kMost),
+                      "--worlds"});
+  }
+  std::vector<std::uint64_t> worlds;
+  for (std::uint64_t world = *first; world <= *last; ++world) worlds.push_back(world);
+  return worlds;
+}
+
+void show_progress(const paper2017::ExperimentProgress& progress) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  fmt::print(stderr,
+             "{}[{}/{}] about {:.0f} s left{}",
+             terminal ? "\r\033[K" : "",
+             progress.done,
+             progress.units,
+             progress.remaining_s,
+             terminal && progress.done < progress.units ? "" : "\n");
+}
+
+Result<paper2017::ExperimentConfig> config_of(const CLI::App& verb, const Options& options) {
+  paper2017::ExperimentConfig config = options.experiment;
+  config.out = options.out;
+  if (options.quick) {
+    if (verb.count("--rows") == 0)
+      config.rows = {"unmodified", "scale_1.2", "scale_1.4", "shear_0.5"};
+    if (verb.count("--worlds") == 0) config.worlds = {1, 2, 3};
+    if (verb.count("--runs") == 0) config.runs = 3;
+    if (verb.count("--starts") == 0) config.starts = {paper2017::Start::kLocal};
+  }
+  if (verb.count("--worlds") > 0) {
+    SEMVIEW_TRY(config.worlds, parse_worlds(options.worlds));
+  }
+  if (verb.count("--starts") > 0) {
+    config.starts.clear();
+    for (const std::string& start : options.starts) {
+      if (start != "local" && start != "global") {
+        return fail(Error{ErrorCode::kInvalidArgument,
+                          fmt::format("--starts {}: expected local or global", start),
+                          "--starts"});
+      }
+      config.starts.push_back(start == "local" ? paper2017::Start::kLocal
+                                               : paper2017::Start::kGlobal);
+    }
+  }
+  return config;
+}
+
+/// The command that gives the same results again.
+std::string command_of(const paper2017::ExperimentConfig& config) {
+  std::string command = "semview evaluate paper2017";
+  const auto list = [&](const char* option, const std::vector<std::string>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      command += (i == 0 ? fmt::format(" {} ", option) : ",") + values[i];
+    }
+  };
+  list("--rows", config.rows);
+  command += fmt::format(" --worlds {}..{} --runs {} --seed {} --engine {}",
+                         config.worlds.front(),
+                         config.worlds.back(),
+                         config.runs,
+                         config.seed,
+                         config.engine);
+  list("--methods", config.methods);
+  std::vector<std::string> starts;
+  for (const paper2017::Start start : config.starts) starts.emplace_back(paper2017::name(start));
+  list("--starts", starts);
+  return command;
+}
+
+Status run(const CLI::App& verb, const Options& options) {
+  SEMVIEW_TRY(const paper2017::ExperimentConfig config, config_of(verb, options));
+  const TimePoint began = steady_clock().now();
+  SEMVIEW_TRY(const paper2017::Experiment experiment,
+              paper2017::run_experiment(config, show_progress));
+  const std::chrono::duration<double> taken = steady_clock().now() - began;
+  const paper2017::Results results(experiment);
+  paper2017::ReportHeader header;
+  header.command = command_of(config);
+  header.revision = paper2017::kRevision;
+  header.cpu = paper2017::cpu_name();
+  header.threads = config.threads > 0 ? config.threads : std::thread::hardware_concurrency();
+  header.wall_s = taken.count();
+  SEMVIEW_TRY(const std::string page, paper2017::write_report(results, header, config.out));
+  fmt::print("{}", page);
+  return {};
+}
+
+}  // namespace
+
+void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
+  CLI::App* verb = evaluate.add_subcommand(
+      "paper2017",
+      "The experiments of Neubert, Schubert, Protzel 2017 on generated worlds: the rows of Fig. 3, "
+      "identity and weighted matrices as printed, ours, and odometry. Prints the tables and leaves "
+      "them with pictures and a CSV line a run and stop in a folder. See "
+      "experiments/paper2017/README.md.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("--rows", options->experiment.rows, "Rows of Fig. 3; default: all")
+      ->type_name("ROW,...")
+      ->delimiter(',');
+  verb->add_option("--worlds",
+                   options->worlds,
+                   "World seeds: 1..100 for results, 201..205 for choosing settings; default: 1..6")
+      ->type_name("A..B");
+  verb->add_option("--runs", options->experiment.runs, "Filter seeds a world")
+      ->capture_default_str();
+  verb->add_option("--seed", options->experiment.seed, "Seed of the filters")
+      ->capture_default_str();
+  verb->add_option("--threads", options->experiment.threads, "0: one a core; results do not change")
+      ->capture_default_str();
+  verb->add_option("--methods",
+                   options->experiment.methods,
+                   "Methods; \"ablation\": ours, and ours without one idea each; default: "
+                   "identity,weighted,ours")
+      ->type_name("METHOD,...")
+      ->delimiter(',');
+  verb->add_option("--starts", options->starts, "Known start, unknown start or both")
+      ->type_name("local,global")
+      ->delimiter(',');
+  add_engine_option(*verb, options->experiment.engine);
+  verb->add_flag("--resume", options->experiment.resume, "Keep what is finished in --out");
+  verb->add_option("--out", options->out, "Folder of the results")->capture_default_str();
+  verb->add_flag(
+      "--quick", options->quick, "Four rows, 3 worlds, 3 runs, known start, in about two minutes");
+  verb->footer("Example: semview evaluate paper2017 --quick --out quick");
+  verb->callback([verb, options, &exit_code] { exit_code = report(run(*verb, *options)); });
+}
+
+}  // namespace semview::cli

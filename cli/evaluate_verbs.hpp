@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Verbs under `semview evaluate` that have a file of their own.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace semview::cli {
+
+void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code);
+
+}  // namespace semview::cli

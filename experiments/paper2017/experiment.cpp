@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "experiment.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "hand_matrix.hpp"
+#include "learned_weights.hpp"
+#include "row_map.hpp"
+#include "semview/core/clock.hpp"
+#include "semview/core/hash.hpp"
+#include "semview/core/thread_pool.hpp"
+#include "semview/io/output_path.hpp"
+#include "semview/io/text_file.hpp"
+#include "semview/similarity/weight_matrix.hpp"
+#include "unit.hpp"
+
+namespace semview::paper2017 {
+namespace {
+
+constexpr std::size_t kMaxUnitBytes = std::size_t{256} << 20U;
+
+std::vector<std::string> default_methods(const Row& row) {
+  std::vector<std::string> ids{"identity", "weighted", "ours"};
+  if (row.id == "unmodified") ids.insert(ids.begin() + 2, "weighted_odometry");
+  return ids;
+}
+
+Result<std::vector<Method>> methods_of(const ExperimentConfig& config, const Row& row) {
+  return methods_by_id(config.methods.empty() ? default_methods(row) : config.methods);
+}
+
+struct Unit {
+  const Row* row = nullptr;
+  std::size_t world = 0;  ///< in `Experiment::worlds`
+  std::filesystem::path file;
+  bool finished = false;
+};
+
+class Runner {
+ public:
+  Runner(Experiment& experiment, const std::function<void(const ExperimentProgress&)>& progress)
+      : experiment_(experiment),
+        config_(experiment.config),
+        progress_(progress),
+        pool_(config_.threads),
+        // The hash in each file's first line: what was made with other settings is not mixed in.
+        first_line_(fmt::format("# semview paper2017, settings {}\n", hash())) {}
+
+  Status run() {
+    SEMVIEW_TRY_STATUS(list_units());
+    make_worlds();
+    SEMVIEW_TRY_STATUS(draw_plans());
+    SEMVIEW_TRY_STATUS(prepare_weights());
+    SEMVIEW_TRY_STATUS(run_units());
+    return collect();
+  }
+
+ private:
+  std::string hash() const {
+    Hasher hasher;
+    hasher.add_string(describe(config_));
+    return to_hex(hasher.digest());
+  }
+
+  /// The units, and which of them are there already.
+  Status list_units() {
+    for (const Row& row : experiment_.rows) {
+      for (std::size_t i = 0; i < config_.worlds.size(); ++i) {
+        Unit unit{&row, i, {}, false};
+        unit.file =
+            config_.out / "units" / fmt::format("{}.world_{}.csv", row.id, config_.worlds[i]);
+        unit.finished = std::filesystem::exists(unit.file);
+        if (unit.finished) {
+          if (!config_.resume) {
+            return fail(Error{ErrorCode::kFailedPrecondition,
+                              fmt::format("{}: holds results already", config_.out.string()),
+                              "--out",
+                              "go on with --resume, or choose another --out"});
+          }
+          SEMVIEW_TRY(const std::string text, io::read_text_file(unit.file, kMaxUnitBytes));
+          if (!text.starts_with(first_line_)) {
+            return fail(
+                Error{ErrorCode::kFailedPrecondition,
+                      fmt::format("{}: was made with other settings than those asked for ({})",
+                                  unit.file.string(),
+                                  hash()),
+                      "--resume",
+                      "choose another --out, or the options of settings.txt there"});
+          }
+        }
+        units_.push_back(std::move(unit));
+      }
+    }
+    std::error_code ignored;
+    std::filesystem::create_directories(config_.out / "units", ignored);
+    return io::write_text_file(config_.out / "settings.txt", describe(config_));
+  }
+
+  void make_worlds() {
+    experiment_.worlds.resize(config_.worlds.size());
+    pool_.parallel_for(config_.worlds.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        experiment_.worlds[i] = make_world(config_.world, WorldSeeds::all(config_.worlds[i]));
+      }
+    });
+  }
+
+  /// The unfinished units' plans, each once, before threads share them.
+  Status draw_plans() {
+    settings_.plans = config_.out / "plans";
+    std::set<std::filesystem::path> drawn;
+    for (const Unit& unit : units_) {
+      if (unit.finished) continue;
+      SEMVIEW_TRY(const std::vector<Method> methods, methods_of(config_, *unit.row));
+      for (const Method& method : methods) {
+        const std::uint64_t seed = config_.worlds[unit.world];
+        const ClassSubset classes = unit.row->classes;
+        if (!drawn.insert(plan_directory(settings_.plans, seed, classes, method.stacked_plan))
+                 .second) {
+          continue;
+        }
+        SEMVIEW_TRY_STATUS(draw_world_plan(experiment_.worlds[unit.world].layout,
+                                           seed,
+                                           classes,
+                                           method.stacked_plan,
+                                           settings_.plans));
+      }
+    }
+    return {};
+  }
+
+  Status prepare_weights() {
+    SEMVIEW_TRY(settings_.hand,
+                similarity::parse_weight_matrix(kHandMatrix, "the built-in matrix"));
+    settings_.starts = config_.starts;
+    settings_.runs = config_.runs;
+    settings_.seed = config_.seed;
+    settings_.engine = config_.engine;
+    std::vector<ClassSubset> subsets;
+    for (const Unit& unit : units_) {
+      if (unit.finished) continue;
+      SEMVIEW_TRY(const std::vector<Method> methods, methods_of(config_, *unit.row));
+      const bool learns = std::ranges::any_of(
+          methods, [](const Method& one) { return one.weights == WeightsKind::kLearned; });
+      if (learns && std::ranges::find(subsets, unit.row->classes) == subsets.end()) {
+        subsets.push_back(unit.row->classes);
+      }
+    }
+    if (subsets.empty()) return {};
+    const std::vector<World> training = make_training_worlds(config_.world, pool_);
+    std::vector<std::optional<Result<similarity::WeightMatrix>>> learned(subsets.size());
+    pool_.parallel_for(subsets.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        learned[i] = learn_weights(training, subsets[i], settings_.plans, config_.engine);
+      }
+    });
+    for (std::size_t i = 0; i < subsets.size(); ++i) {
+      SEMVIEW_TRY(similarity::WeightMatrix matrix, *std::move(learned[i]));
+      SEMVIEW_TRY_STATUS(io::write_text_file(
+          config_.out / fmt::format("weights_{}.csv", name(subsets[i])), matrix.to_csv()));
+      settings_.learned.emplace(subsets[i], std::move(matrix));
+    }
+    return {};
+  }
+
+  Status run_units() {
+    const TimePoint began = steady_clock().now();
+    std::mutex mutex;
+    Status first_error;
+    std::atomic<bool> failed = false;
+    const auto finished =
+        static_cast<std::size_t>(std::ranges::count(units_, true, &Unit::finished));
+    std::size_t done = finished;
+    pool_.parallel_for(units_.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (units_[i].finished || failed) continue;
+        Status status = run_one(units_[i]);
+        const std::lock_guard lock(mutex);
+        if (!status) {
+          if (!failed) first_error = std::move(status);
+          failed = true;
+          continue;
+        }
+        ++done;
+        const std::chrono::duration<double> taken = steady_clock().now() - began;
+        const double a_unit_s = taken.count() / static_cast<double>(done - finished);
+        progress_({done, units_.size(), a_unit_s * static_cast<double>(units_.size() - done)});
+      }
+    });
+    return first_error;
+  }
+
+  Status run_one(const Unit& unit) const {
+    SEMVIEW_TRY(const std::vector<Method> methods, methods_of(config_, *unit.row));
+    SEMVIEW_TRY(const std::vector<TrialRecord> drives,
+                run_unit(settings_,
+                         methods,
+                         *unit.row,
+                         experiment_.worlds[unit.world],
+                         config_.worlds[unit.world]));
+    std::string text = first_line_ + csv_header();
+    std::string times = times_csv_header();
+    for (const TrialRecord& drive : drives) {
+      text += to_csv(drive);
+      times += times_csv(drive);
+    }
+    // The results last: where they are, the unit is finished.
+    std::filesystem::path times_file = unit.file;
+    SEMVIEW_TRY_STATUS(io::write_text_file(times_file.replace_extension(".times.csv"), times));
+    return io::write_text_file(unit.file, text);
+  }
+
+  /// From the files, finished now or earlier: tables cannot differ from what is stored.
+  Status collect() {
+    std::string all = first_line_ + csv_header();
+    for (const Unit& unit : units_) {
+      SEMVIEW_TRY(const std::string text, io::read_text_file(unit.file, kMaxUnitBytes));
+      all += text.substr(std::min(text.size(), first_line_.size() + csv_header().size()));
+      SEMVIEW_TRY(std::vector<TrialRecord> trials, parse_trials(text, unit.file.string()));
+      for (TrialRecord& trial : trials) experiment_.trials.push_back(std::move(trial));
+    }
+    return io::write_text_file(config_.out / "runs.csv", all);
+  }
+
+  Experiment& experiment_;
+  const ExperimentConfig& config_;
+  const std::function<void(const ExperimentProgress&)>& progress_;
+  ThreadPool pool_;
+  std::string first_line_;
+  std::vector<Unit> units_;
+  UnitSettings settings_;
+};
+
+}  // namespace
+
+Result<std::vector<Row>> rows_of(const ExperimentConfig& config) {
+  if (config.rows.empty()) return all_rows();
+  std::vector<Row> rows;
+  for (const std::string& id : config.rows) {
+    const Row* found = find_row(id);
+    if (found == nullptr) {
+      std::string known;
+      for (const Row& row : all_rows()) known += (known.empty() ? "" : ", ") + row.id;
+      return fail(Error{ErrorCode::kInvalidArgument,
+                        fmt::format("--rows {}: expected some of {}", id, known),
+                        "--rows"});
+    }
+    rows.push_back(*found);
+  }
+  return rows;
+}
+
+Status validate(const ExperimentConfig& config) {
+  const auto refuse = [](const char* option, std::string message) {
+    return fail(Error{ErrorCode::kInvalidArgument, std::move(message), option});
+  };
+  if (config.runs < 1 || config.runs > 1000) {
+    return refuse("--runs", fmt::format("--runs {}: expected 1 to 1000", config.runs));
+  }
+  if (config.starts.empty()) return refuse("--starts", "--starts: expected local, global or both");
+  if (config.out.empty()) return refuse("--out", "--out: expected a folder");
+  if (const auto rows = rows_of(config); !rows) return fail(rows.error());
+  if (const auto methods = methods_by_id(config.methods); !methods) return fail(methods.error());
+  if (const auto use = check_worlds(config.worlds); !use) return fail(use.error());
+  return service::validate(site_config(config.engine));
+}
+
+std::string describe(const ExperimentConfig& config) {
+  std::string text = fmt::format(
+      "format: 1\nengine: {}\nruns: {}, seed {}\nstarts:", config.engine, config.runs, config.seed);
+  for (const Start start : config.starts) text += fmt::format(" {}", name(start));
+  text += '\n' + describe(config.world);
+  std::vector<std::string> ids = config.methods;
+  if (ids.empty()) ids = default_methods(*find_row("unmodified"));
+  if (const auto methods = methods_by_id(ids)) {
+    for (const Method& method : *methods) text += describe(method) + '\n';
+  }
+  return text;
+}
+
+Result<Experiment> run_experiment(const ExperimentConfig& config,
+                                  const std::function<void(const ExperimentProgress&)>& progress) {
+  SEMVIEW_TRY_STATUS(validate(config));
+  SEMVIEW_TRY_STATUS(io::check_output_folder(config.out));
+  Experiment experiment;
+  experiment.config = config;
+  SEMVIEW_TRY(experiment.use, check_worlds(config.worlds));
+  SEMVIEW_TRY(experiment.rows, rows_of(config));
+  SEMVIEW_TRY_STATUS(Runner(experiment, progress).run());
+  return experiment;
+}
+
+}  // namespace semview::paper2017

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guard.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace semview::paper2017 {
+namespace {
+
+std::optional<WorldUse> use_of(std::uint64_t world) {
+  if (world >= 1 && world <= kLastTestWorld) return WorldUse::kTest;
+  if (world >= kFirstTrainingWorld && world <= kLastTrainingWorld) return WorldUse::kTraining;
+  if (world >= kFirstValidationWorld && world <= kLastValidationWorld) return WorldUse::kValidation;
+  return std::nullopt;
+}
+
+tl::unexpected<Error> refuse(std::string message) {
+  return fail(Error{ErrorCode::kInvalidArgument, std::move(message), "--worlds"});
+}
+
+}  // namespace
+
+std::string_view name(WorldUse use) {
+  switch (use) {
+    case WorldUse::kTest:
+      return "test";
+    case WorldUse::kTraining:
+      return "training";
+    case WorldUse::kValidation:
+      return "validation";
+  }
+  return "";
+}
+
+Result<WorldUse> check_worlds(std::span<const std::uint64_t> worlds) {
+  if (worlds.empty()) return refuse("--worlds: none; expected a range, for example 1..6");
+  const std::optional<WorldUse> first = use_of(worlds.front());
+  for (const std::uint64_t world : worlds) {
+    const std::optional<WorldUse> use = use_of(world);
+    if (!use) {
+      return refuse(
+          fmt::format("--worlds: {} is no world; expected 1..{} (test) or {}..{} (validation)",
+                      world,
+                      kLastTestWorld,
+                      kFirstValidationWorld,
+                      kLastValidationWorld));
+    }
+    if (*use == WorldUse::kTraining) {
+      return refuse(
+          fmt::format("--worlds: weights are learned on world {}; expected 1..{} (test) "
+                      "or {}..{} (validation)",
+                      world,
+                      kLastTestWorld,
+                      kFirstValidationWorld,
+                      kLastValidationWorld));
+    }
+    if (use != first) {
+      return refuse(fmt::format("--worlds: {} is a {} world and {} a {} world; expected one kind",
+                                worlds.front(),
+                                name(*first),
+                                world,
+                                name(*use)));
+    }
+  }
+  return *first;
+}
+
+Status check_provenance(const Provenance& provenance) {
+  const auto shared = [](std::string_view what, const std::string& name) {
+    return fail(ErrorCode::kFailedPrecondition,
+                fmt::format("camera and map have one {}, {}: their agreement would prove nothing; "
+                            "expected two",
+                            what,
+                            name));
+  };
+  if (provenance.observation_scene == provenance.map_scene) {
+    return shared("scene", provenance.map_scene);
+  }
+  if (provenance.observation_renderer == provenance.map_renderer) {
+    return shared("renderer", provenance.map_renderer);
+  }
+  return {};
+}
+
+std::string to_text(const Provenance& provenance) {
+  return fmt::format("observations: {}, cast by {}; map: {}, cast by {}",
+                     provenance.observation_scene,
+                     provenance.observation_renderer,
+                     provenance.map_scene,
+                     provenance.map_renderer);
+}
+
+}  // namespace semview::paper2017

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The experiment's tables, in Markdown.
+#pragma once
+
+#include <string>
+
+#include "results.hpp"
+
+namespace semview::paper2017 {
+
+/// Fig. 3, right: "best (min)" of identity, weighted, ours and odometry beside what is printed.
+/// Of ours, best is its own estimate. Columns of other methods follow.
+std::string fig3_table(const Results& results, Start start);
+
+/// Of each row and method: mean, median over worlds, 95 % interval over worlds, stops above 0.3 m
+/// and 1 m, the paired difference to weighted and its interval, the ratio, and ours against goals.
+std::string spread_table(const Results& results, Start start);
+
+/// From which image on the error stays below half a metre.
+std::string localized_table(const Results& results);
+
+/// What ours has found of the map's distortion after the last stop.
+std::string distortion_table(const Results& results, Start start);
+
+/// Ours, and ours without one idea each; empty if no such methods were run.
+std::string ablation_table(const Results& results, Start start);
+
+}  // namespace semview::paper2017
