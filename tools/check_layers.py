@@ -78,7 +78,7 @@ MODULES = {
     "client/load": Module(VIEW | {"similarity", "protocol", "client/lib"}, {"ZeroMQ"}),
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
     "experiments/paper2017": Module(SERVICE | {"service", "localization", "observation", "evaluation",
-                                               "picture"}, set()),
+                                               "picture", "client/robot"}, set()),
     "cli": Module(SERVICE | {"service", "segmentation", "picture", "localization", "observation", "simulation",
                              "evaluation", "benchmark", "server", "client/lib", "client/load",
                              "client/robot", "experiments/paper2017"},
