@@ -122,4 +122,12 @@ double SynonymTable::score(std::string_view a, std::string_view b) const {
   return highest > 0.0 ? highest : lowest;
 }
 
+double SynonymTable::degree_beside(std::string_view class_name, std::string_view example) const {
+  double highest = 0.0;
+  for (const Group& group : groups_) {
+    if (group.degree(example) == 1.0) highest = std::max(highest, group.degree(class_name));
+  }
+  return highest;
+}
+
 }  // namespace semview::similarity

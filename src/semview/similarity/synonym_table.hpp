@@ -32,6 +32,9 @@ class SynonymTable {
   /// ties (a name may be in several groups) the highest positive one counts, else the lowest.
   double score(std::string_view a, std::string_view b) const;
 
+  /// The degree in which a name belongs to the group of `example`; 0 if to none of its groups.
+  double degree_beside(std::string_view class_name, std::string_view example) const;
+
  private:
   struct Member {
     std::string name;

@@ -13,20 +13,6 @@ bool is_called(const NamedClass& named, const std::string& name) {
   return named.name == name || std::ranges::find(named.aliases, name) != named.aliases.end();
 }
 
-bool share_a_name(const NamedClass& a, const NamedClass& b) {
-  return is_called(a, b.name) || std::ranges::any_of(b.aliases, [&](const std::string& alias) {
-           return is_called(a, alias);
-         });
-}
-
-/// The name by which the table knows a class: its own, else the first known alias, else its own.
-const std::string& known_name(const NamedClass& named, const SynonymTable& synonyms) {
-  if (synonyms.contains(named.name)) return named.name;
-  const auto alias = std::ranges::find_if(
-      named.aliases, [&](const std::string& name) { return synonyms.contains(name); });
-  return alias == named.aliases.end() ? named.name : *alias;
-}
-
 double weight_of(const NamedClass& observed, const NamedClass& map, const SynonymTable& synonyms) {
   const std::string& map_name = known_name(map, synonyms);
   if (share_a_name(observed, map)) return synonyms.significance(map_name);
@@ -34,6 +20,19 @@ double weight_of(const NamedClass& observed, const NamedClass& map, const Synony
 }
 
 }  // namespace
+
+bool share_a_name(const NamedClass& a, const NamedClass& b) {
+  return is_called(a, b.name) || std::ranges::any_of(b.aliases, [&](const std::string& alias) {
+           return is_called(a, alias);
+         });
+}
+
+const std::string& known_name(const NamedClass& named, const SynonymTable& synonyms) {
+  if (synonyms.contains(named.name)) return named.name;
+  const auto alias = std::ranges::find_if(
+      named.aliases, [&](const std::string& name) { return synonyms.contains(name); });
+  return alias == named.aliases.end() ? named.name : *alias;
+}
 
 Result<WeightProposal> propose_weights(std::span<const NamedClass> observed,
                                        std::span<const NamedClass> map,

@@ -13,6 +13,12 @@
 
 namespace semview::similarity {
 
+/// The name by which the table knows a class: its own, else the first known alias, else its own.
+const std::string& known_name(const NamedClass& named, const SynonymTable& synonyms);
+
+/// True if a name or alias of one is one of the other's.
+bool share_a_name(const NamedClass& a, const NamedClass& b);
+
 struct WeightProposal {
   WeightMatrix matrix;
   /// Classes of the vocabulary that speak for none of the map's: these say nothing yet, and want a
