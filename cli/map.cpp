@@ -17,6 +17,7 @@ void add_map_verb(CLI::App& app, int& exit_code) {
   add_map_info(*map, exit_code);
   add_map_pictures(*map, exit_code);
   add_map_import(*map, exit_code);
+  add_map_distort(*map, exit_code);
   add_map_export(*map, exit_code);
 }
 

@@ -17,6 +17,7 @@ void add_map_check(CLI::App& map, int& exit_code);
 void add_map_info(CLI::App& map, int& exit_code);
 void add_map_pictures(CLI::App& map, int& exit_code);  ///< preview, occupancy
 void add_map_import(CLI::App& map, int& exit_code);
+void add_map_distort(CLI::App& map, int& exit_code);  ///< distort, rectify
 void add_map_export(CLI::App& map, int& exit_code);
 
 /// The grid of any map: from its columns, or by casting rays at its mesh.

@@ -44,6 +44,11 @@ inline Pose2 drawn_move(const Pose2& before, const Pose2& after, const MapAffine
   return {before.x_m + affine.a * x_m, before.y_m + affine.k * x_m + affine.b * y_m, after.yaw_rad};
 }
 
+/// The way back, from drawn to true metres.
+inline MapAffine inverse(const MapAffine& affine) {
+  return {1.0 / affine.a, 1.0 / affine.b, -affine.k / (affine.a * affine.b) + 0.0};
+}
+
 /// How finely distortions are told apart where views are cached: scales by steps of their
 /// logarithm, shears by steps.
 inline constexpr double kAffineStep = 0.02;
