@@ -282,6 +282,7 @@ void add_evaluate_verb(CLI::App& app, int& exit_code) {
   verb->callback([options, &exit_code] { exit_code = report(run(*options)); });
   add_evaluate_lost_verb(*evaluate_verb, exit_code);
   add_evaluate_paper2017_verb(*evaluate_verb, exit_code);
+  add_evaluate_images(*evaluate_verb, exit_code);
 }
 
 }  // namespace semview::cli

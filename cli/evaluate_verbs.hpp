@@ -9,6 +9,7 @@ class App;
 namespace semview::cli {
 
 void add_evaluate_lost_verb(CLI::App& evaluate, int& exit_code);
+void add_evaluate_images(CLI::App& evaluate_verb, int& exit_code);
 void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code);
 
 }  // namespace semview::cli

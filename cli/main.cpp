@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     semview::cli::add_score_verb(app, exit_code);
     semview::cli::add_heatmap_verb(app, exit_code);
     semview::cli::add_localize_verb(app, exit_code);
+    semview::cli::add_locate_verb(app, exit_code);
     semview::cli::add_bench_verb(app, exit_code);
     semview::cli::check_whole_numbers(app);
     try {

@@ -31,6 +31,7 @@ void add_score_verb(CLI::App& app, int& exit_code);
 void add_heatmap_verb(CLI::App& app, int& exit_code);
 void add_localize_verb(CLI::App& app, int& exit_code);
 void add_observe_verb(CLI::App& app, int& exit_code);
+void add_locate_verb(CLI::App& app, int& exit_code);
 void add_bench_verb(CLI::App& app, int& exit_code);
 
 /// 0, or prints `semview: <message>` (and the hint) on standard error and returns `kExitFailed`,

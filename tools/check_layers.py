@@ -70,6 +70,7 @@ MODULES = {
     "service": Module(SERVICE, set()),
     "protocol": Module(VIEW | {"similarity"}, {"protobuf"}),
     "simulation": Module(VIEW | {"io", "map", "raycast", "localization"}, set()),
+    "places": Module(SERVICE | {"service", "observation"}, set()),
     "evaluation": Module(SERVICE | {"service", "localization", "observation", "simulation", "picture"},
                          set()),
     "benchmark": Module(SERVICE | {"service", "picture", "observation"}, {"zstd", "Highway"}),
@@ -80,7 +81,7 @@ MODULES = {
     "experiments/paper2017": Module(SERVICE | {"service", "localization", "observation", "evaluation",
                                                "picture", "client/robot"}, set()),
     "cli": Module(SERVICE | {"service", "segmentation", "picture", "localization", "observation", "simulation",
-                             "evaluation", "benchmark", "server", "client/lib", "client/load",
+                             "places", "evaluation", "benchmark", "server", "client/lib", "client/load",
                              "client/robot", "experiments/paper2017"},
                   {"CLI11", "nlohmann-json"}),
 }

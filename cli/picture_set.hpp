@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Pictures with known poses: read from a list, or simulated in another model of the building.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "semview/core/result.hpp"
+#include "semview/geometry/panorama_camera.hpp"
+#include "semview/map/cell_grid.hpp"
+#include "semview/view/observation.hpp"
+
+namespace semview::cli {
+
+struct KnownPicture {
+  std::string name;
+  Pose2 map_from_robot;
+  Observation observation;
+};
+
+/// Lines `folder,x_m,y_m,yaw_deg`, the folder of an observation relative to the list's; a first
+/// line of names, empty lines and lines that start with # are skipped.
+/// @errors kNotFound, kInvalidArgument with file and line; those of `io::read_observation`.
+Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path& path,
+                                                    const PanoramaCamera& profile);
+
+struct SimulatedPictures {
+  std::string world;            ///< a map whose views are photographed, a mesh mostly
+  double world_ground_m = 0.0;  ///< the storey's floor in the world's z
+  double eye_height_m = 1.45;   ///< ± 5 cm, above that floor
+  int pictures = 100;
+  std::uint64_t seed = 1;
+};
+
+/// Photographs (`simulation::photograph`) taken at random places of free cells of the map, off the
+/// grid, at random headings, by the world's own geometry and Embree.
+/// @errors those of loading the world.
+Result<std::vector<KnownPicture>> simulate_pictures(const SimulatedPictures& config,
+                                                    const map::CellGrid& cells,
+                                                    const PanoramaCamera& profile);
+
+/// Only the part of a picture around its heading that a camera of this angle sees: the rest becomes
+/// unknown. `turn_rad` turns the camera from the robot's heading.
+Observation cropped(const Observation& observation, double turn_rad, double width_rad);
+
+}  // namespace semview::cli

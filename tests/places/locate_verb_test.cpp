@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/// `semview locate` and `semview evaluate images` as a user runs them.
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "semview/geometry/angle.hpp"
+#include "semview/io/observation_folder.hpp"
+#include "semview/io/png.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "semview/raycast/panorama_renderer.hpp"
+#include "semview/service/site.hpp"
+#include "service/small_map.hpp"
+#include "support/run_program.hpp"
+
+namespace semview {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class LocateVerbTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    service::SiteConfig config;
+    config.threads = 1;
+    config.profile.camera = {360, 150, -rad_from_deg(75.0), rad_from_deg(75.0)};
+    const auto site = service::Site::open(map_, config).value();
+    raycast::PanoramaRequest request;
+    request.map_from_robot = truth_;
+    request.eye_z_m = site->eye_z_m(1.2);
+    request.camera = site->profile().camera;
+    io::ObservationSetup setup;
+    setup.classes = site->map().classes;
+    PartialPanorama whole;
+    whole.elevation_min_rad = -rad_from_deg(75.0);
+    whole.elevation_max_rad = rad_from_deg(75.0);
+    setup.camera = whole;
+    ASSERT_TRUE(io::write_observation(
+        folder_ / "obs", setup, site->exact_panorama(request).value().labels, 0.0));
+  }
+
+  std::string file(const char* name) const { return (folder_ / name).string(); }
+
+  testing::TemporaryFolder folder_;
+  const std::filesystem::path map_ = testing::write_small_map(folder_);
+  const Pose2 truth_{0.93, 0.87, rad_from_deg(-52.4)};
+};
+
+TEST_F(LocateVerbTest, PrintsPlacesAndDrawsWhereItMayBe) {
+  const auto run = testing::run_semview(
+      "locate " + map_.string() + " --obs " + file("obs") +
+      " --eye-height 1.2 --rows 150 --elevation -75,75 --top 3 --json --heatmap " +
+      file("where.png"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const json answer = json::parse(run.output);
+  ASSERT_GE(answer["places"].size(), 1U);
+  ASSERT_LE(answer["places"].size(), 3U);
+  const json& best = answer["places"][0];
+  EXPECT_NEAR(best["x_m"].get<double>(), truth_.x_m, 0.03);
+  EXPECT_NEAR(best["y_m"].get<double>(), truth_.y_m, 0.03);
+  EXPECT_NEAR(best["yaw_rad"].get<double>(), truth_.yaw_rad, rad_from_deg(2.0));
+  EXPECT_GT(best["probability"].get<double>(), 0.0);
+  EXPECT_GE(answer["ambiguity"]["effective_places"].get<double>(), 1.0);
+  EXPECT_TRUE(io::png_size(file("where.png")));
+}
+
+TEST_F(LocateVerbTest, CountsHowOftenAListedPictureIsFound) {
+  std::ofstream(file("poses.csv")) << "folder,x_m,y_m,yaw_deg\nobs,0.93,0.87,-52.4\n";
+  const auto run =
+      testing::run_semview("evaluate images " + map_.string() + " --list " + file("poses.csv") +
+                           " --eye-height 1.2 --rows 150 --elevation -75,75 --json");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const json answer = json::parse(run.output);
+  EXPECT_EQ(answer["rows"][0]["method"], "semview");
+  EXPECT_EQ(answer["rows"][0]["pictures"], 1);
+  EXPECT_EQ(answer["rows"][0]["located_0.5m_15deg"], 1.0);
+  EXPECT_LT(answer["rows"][0]["median_m"].get<double>(), 0.05);
+}
+
+TEST_F(LocateVerbTest, NamesTheLineOfAListThatIsNone) {
+  std::ofstream(file("poses.csv")) << "folder,x_m,y_m,yaw_deg\nobs,0.93,here\n";
+  const auto run = testing::run_semview("evaluate images " + map_.string() + " --list " +
+                                        file("poses.csv") + " --eye-height 1.2");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.output, HasSubstr("poses.csv:2: expected folder,x_m,y_m,yaw_deg"));
+  const auto neither = testing::run_semview("evaluate images " + map_.string());
+  EXPECT_EQ(neither.exit_code, 2) << neither.output;
+}
+
+}  // namespace
+}  // namespace semview
