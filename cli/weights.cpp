@@ -17,6 +17,7 @@
 #include "semview/similarity/weight_matrix.hpp"
 #include "semview/similarity/weight_proposal.hpp"
 #include "verb.hpp"
+#include "weights_verbs.hpp"
 
 namespace semview::cli {
 namespace {
@@ -180,6 +181,9 @@ void add_weights_verb(CLI::App& app, int& exit_code) {
                          "Also check the rows: ade20k150, a file, or a run log");
   check_verb->footer("Example: semview weights check maps/tutorial w.csv --vocabulary ade20k150");
   check_verb->callback([check_options, &exit_code] { exit_code = report(check(*check_options)); });
+
+  add_weights_learn(*weights, exit_code);
+  add_weights_show(*weights, exit_code);
 }
 
 }  // namespace semview::cli

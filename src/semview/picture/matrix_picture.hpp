@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A table of signed numbers as coloured squares.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "semview/geometry/image.hpp"
+
+namespace semview::picture {
+
+struct MatrixPicture {
+  std::string title = {};
+  std::vector<std::string> rows;     ///< names, at the left
+  std::vector<std::string> columns;  ///< names, on top, written upwards
+  /// rows × columns; several stand side by side, each with its name below.
+  std::vector<Image<double>> values;
+  std::vector<std::string> value_names;
+};
+
+/// Blue above zero, red below, white at it, the strongest colour at the largest value in size; the
+/// number in each square.
+RgbImage draw_matrix(const MatrixPicture& picture);
+
+}  // namespace semview::picture
