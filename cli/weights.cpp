@@ -161,8 +161,8 @@ void add_weights_verb(CLI::App& app, int& exit_code) {
       ->add_option(
           "--vocabulary",
           init_options->vocabulary,
-          "What the segmentation knows: ade20k150, a file with one class name a line, or a run "
-          "log for the names in it")
+          "What the segmentation knows: ade20k150, ade20k32 (the shipped network), a file with one "
+          "class name a line, or a run log for the names in it")
       ->capture_default_str();
   init_verb->add_option("-o,--output", init_options->weights, "CSV file to write")->required();
   init_verb->footer("Example: semview weights init maps/tutorial --vocabulary ade20k150 -o w.csv");
@@ -178,7 +178,7 @@ void add_weights_verb(CLI::App& app, int& exit_code) {
   check_verb->add_option("WEIGHTS", check_options->weights, "CSV file")->required();
   check_verb->add_option("--vocabulary",
                          check_options->vocabulary,
-                         "Also check the rows: ade20k150, a file, or a run log");
+                         "Also check the rows: ade20k150, ade20k32, a file, or a run log");
   check_verb->footer("Example: semview weights check maps/tutorial w.csv --vocabulary ade20k150");
   check_verb->callback([check_options, &exit_code] { exit_code = report(check(*check_options)); });
 
