@@ -144,7 +144,7 @@ Status write_fig3(const Results& results, const std::filesystem::path& directory
 Status write_fig4(const Results& results, const std::filesystem::path& directory) {
   for (const Start start : results.experiment().config.starts) {
     picture::BoxPlot plot;
-    plot.title = fmt::format("{} start: error a image over worlds and runs",
+    plot.title = fmt::format("{} start: error at each image, over worlds and runs",
                              start == Start::kLocal ? "Known" : "Unknown");
     plot.x_axis = "image";
     plot.y_axis = "m";
