@@ -32,7 +32,8 @@ TEST(TableTest, MarkdownHasARowAFindingAndSaysWhetherGoalsAreReached) {
       measured(1.23e-5, 0.00123, 100.0), measured(0.01, 0.0325, 3.25), missing};
   EXPECT_EQ(
       to_markdown(rows),
-      "| row | claim | plan | size | threads | clock | ours | the alternative | ratio | goal |  |\n"
+      "| row | claim | plan | size | threads | clock | ours | the alternative | ratio | goal | "
+      "results |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
       "| pair | ours; theirs | office | 360x90 | 1 | thread | 12.3 us | 1.23 ms | 100x | at least "
       "4x, then 5x: yes, yes | "

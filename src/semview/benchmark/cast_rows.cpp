@@ -140,10 +140,7 @@ Panorama panorama_of(const CasterPeer& peer,
 template <typename Ours>
 Status compare_with_open3d(const Circumstances& in, Row& row, const Ours& ours) {
   auto peer = open_caster_peer(in.subject.mesh);
-  if (!peer) {
-    row.note = peer.error().message;
-    return {};
-  }
+  if (!peer) return without_peer(peer.error(), row);
   const std::vector<PanoramaRequest> views = requests(in, in.extent.views);
   Agreement agreement(kTiesOfPeers);
   for (const PanoramaRequest& view : views) {
@@ -213,10 +210,7 @@ Status columns_and_numpy(const Circumstances& in, Row& row) {
     eyes.push_back(eye_of(views[i]));
   }
   const auto numpy = numpy_projection(points, eyes, in.camera, in.extent.turns.fewest_rounds);
-  if (!numpy) {
-    row.note = numpy.error().message;
-    return {};
-  }
+  if (!numpy) return without_peer(numpy.error(), row);
   Agreement same(kTiesOfPeers);
   same.add_labels(project_points(points, eyes.front(), in.camera), numpy->first_view);
   // A point on the edge of a pixel falls to either side: their arc tangents differ in the last bit.

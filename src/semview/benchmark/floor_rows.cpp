@@ -41,7 +41,7 @@ struct Floor {
 };
 
 Result<Floor> open_floor(const Circumstances& in) {
-  const ScratchFolder folder;
+  SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   service::SiteConfig config = config_of(in);
   config.memory_bytes = std::uint64_t{2} << 30U;  // 100 000 views with room to spare

@@ -10,10 +10,6 @@
 namespace semview::benchmark {
 namespace {
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 /// Of the calling thread, in which a pool of one thread does all.
 double thread_s() {
   timespec time{};
@@ -54,6 +50,10 @@ class Samples {
 };
 
 }  // namespace
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 TurnsClock clock_for(const ThreadPool& pool) {
   return pool.threads() == 1 ? TurnsClock::kThread : TurnsClock::kWall;

@@ -18,6 +18,17 @@ struct Contender {
   std::function<void(std::size_t)> item;
 };
 
+/// Of a clock that only goes forward.
+double now_s();
+
+/// By that clock.
+template <typename Work>
+double seconds_of(const Work& work) {
+  const double begin_s = now_s();
+  work();
+  return now_s() - begin_s;
+}
+
 /// What a time is read from: of one thread the processor time that it had, so that what else the
 /// machine does counts for neither side; of several the wall.
 enum class TurnsClock { kThread, kWall };

@@ -66,6 +66,9 @@ std::vector<RowKind> served_rows();
 
 Goal at_least(double ratio, std::optional<double> then = {});
 
+/// Leaves a note in the row that a peer is not there (kNotFound); any other error is one.
+Status without_peer(const Error& error, Row& row);
+
 /// An item of work whose results are kept, as the program would: `make(i)` gives the i-th.
 template <typename Made, typename Make>
 Contender keeping(std::size_t items, std::vector<Made>& kept, const Make& make) {

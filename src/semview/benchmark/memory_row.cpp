@@ -33,7 +33,7 @@ bool forget_peak() {
 /// The rise of the process's peak from before a map is opened until some thousand of its cells have
 /// been seen: what else this program holds is left out.
 Status memory(const Circumstances& in, Row& row) {
-  const ScratchFolder folder;
+  SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   const std::vector<CellIndex> cells = in.subject.sample(in.extent.precomputed_cells);
   ::malloc_trim(0);  // or freed memory would be used anew, and not counted

@@ -10,44 +10,28 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "semview/benchmark/peer.hpp"
+#include "semview/benchmark/scratch_folder.hpp"
 
 namespace semview::benchmark::detail {
 namespace {
 
-/// The points in the script's order, in a file that goes with this object.
-class PointsFile {
- public:
-  explicit PointsFile(const PointCloud& points)
-      : path_(std::filesystem::temp_directory_path() /
-              fmt::format("semview_points_{}.f32", getpid())) {
-    std::ofstream file(path_, std::ios::binary);
-    const auto write = [&file](const std::vector<float>& values) {
-      file.write(reinterpret_cast<const char*>(values.data()),
-                 static_cast<std::streamsize>(values.size() * sizeof(float)));
-    };
-    write(points.x_m);
-    write(points.y_m);
-    write(points.z_m);
-    write({points.labels.begin(), points.labels.end()});
-    sound_ = file.good();
-  }
-  ~PointsFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  PointsFile(const PointsFile&) = delete;
-  PointsFile& operator=(const PointsFile&) = delete;
-
-  bool sound() const { return sound_; }
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-  bool sound_ = false;
-};
+/// The points in the script's order.
+Status write_points(const PointCloud& points, const std::filesystem::path& path) {
+  std::ofstream file(path, std::ios::binary);
+  const auto write = [&file](const std::vector<float>& values) {
+    file.write(reinterpret_cast<const char*>(values.data()),
+               static_cast<std::streamsize>(values.size() * sizeof(float)));
+  };
+  write(points.x_m);
+  write(points.y_m);
+  write(points.z_m);
+  write({points.labels.begin(), points.labels.end()});
+  file.close();
+  if (file.good()) return {};
+  return fail(ErrorCode::kUnavailable, path.string() + ": cannot be written");
+}
 
 /// What a command prints, by lines; fewer than expected if it failed.
 std::vector<std::string> lines_of(const std::string& command) {
@@ -85,10 +69,9 @@ Result<NumpyProjection> numpy_projection(const PointCloud& points,
   if (!std::filesystem::exists(script, ignored)) {
     return fail(ErrorCode::kNotFound, "not installed: build with -DSEMVIEW_BUILD_BENCH=ON");
   }
-  const PointsFile file(points);
-  if (!file.sound()) {
-    return fail(ErrorCode::kUnavailable, file.path() + ": cannot be written");
-  }
+  SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
+  const std::filesystem::path file = folder / "points.f32";
+  SEMVIEW_TRY_STATUS(write_points(points, file));
   std::string places;
   for (const Eye& eye : eyes) places += fmt::format("{},{},{};", eye.x_m, eye.y_m, eye.z_m);
   places.pop_back();
@@ -97,7 +80,7 @@ Result<NumpyProjection> numpy_projection(const PointCloud& points,
       lines_of(fmt::format("for python in python3 /usr/bin/python3; do $python -c 'import numpy' "
                            "2>/dev/null && exec $python '{}' '{}' {} {} '{}' {}; done",
                            script,
-                           file.path(),
+                           file.string(),
                            camera.columns,
                            camera.rows,
                            places,

@@ -100,10 +100,7 @@ WeightImages weight_images(const ScoringTask& task, const ClassTable& classes) {
 Status compass_and_match_template(const Circumstances& in, Row& row) {
   SEMVIEW_TRY(const ScoringTask task, scoring_task(in.subject, in.camera, in.extent.cells));
   const auto peer = open_match_peer(weight_images(task, in.subject.map->classes));
-  if (!peer) {
-    row.note = peer.error().message;
-    return {};
-  }
+  if (!peer) return without_peer(peer.error(), row);
   const std::size_t slow = std::min(in.extent.slow_cells, task.views.size());
   std::vector<LabelImage> pixels;
   double worst = 0.0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the network costs: calls over TCP beside the same calls in this process.
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,10 +18,6 @@
 namespace semview::benchmark::detail {
 namespace {
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 /// Two sites of one map, one behind a server: neither finds what the other has cast.
 struct BothSides {
   std::shared_ptr<service::Site> site;
@@ -31,7 +26,7 @@ struct BothSides {
 
 Result<BothSides> open_both(const Circumstances& in) {
   if (!in.serve) return fail(ErrorCode::kUnavailable, "not installed: a server to measure");
-  const ScratchFolder folder;
+  SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   BothSides sides;
   SEMVIEW_TRY(sides.site, service::Site::open(map, config_of(in)));

@@ -2,7 +2,6 @@
 // What the service makes of the engines: precomputing, and the time until a map answers.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <stop_token>
@@ -19,10 +18,6 @@ namespace {
 
 /// Embree precomputes one cell in so many: it takes that much longer.
 constexpr std::size_t kEmbreeShare = 8;
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// As many cells of a plan as are asked for, spread over all of it row by row.
 void thin_out(std::vector<CellIndex>& cells, std::size_t count) {
@@ -60,7 +55,7 @@ Result<double> precompute_s(const std::filesystem::path& map,
 
 /// With one engine, whatever the others cast with.
 Status precompute(const Circumstances& in, Row& row, const std::string& engine, std::size_t cells) {
-  const ScratchFolder folder;
+  SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   service::SiteConfig config = config_of(in);
   config.engine = engine;
@@ -97,7 +92,7 @@ Status precompute_with_embree(const Circumstances& in, Row& row) {
 
 /// From the map's files to the first view, and a view that is known already.
 Status ready(const Circumstances& in, Row& row) {
-  const ScratchFolder folder;
+  SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   std::vector<double> open_s;
   double cold_s = 0.0, warm_s = 0.0;

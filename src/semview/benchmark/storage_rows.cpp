@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a stored view costs, in bytes and in time.
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <zstd.h>
@@ -17,6 +19,20 @@ std::vector<ColumnView> cast_views(const Circumstances& in) {
     views.push_back(in.subject.runs(in.subject.request(cell, in.camera)));
   }
   return views;
+}
+
+/// Of a view; they are the same in every round.
+Finding finding_of_bytes(double ours, double other, std::string agreement) {
+  return {.unit = "B",
+          .ours = ours,
+          .ours_median = ours,
+          .other = other,
+          .other_median = other,
+          .ratio = other / ours,
+          .ratio_median = other / ours,
+          .rounds = 1,
+          .clock = "",
+          .agreement = std::move(agreement)};
 }
 
 /// Bytes of the pixels after zstd at its usual level.
@@ -40,16 +56,8 @@ Status stored_bytes(const Circumstances& in, Row& row) {
     other += static_cast<double>(zstd_bytes(view.to_labels(0)));
   }
   const auto count = static_cast<double>(views.size());
-  row.found = Finding{"B",
-                      ours / count,
-                      ours / count,
-                      other / count,
-                      other / count,
-                      other / ours,
-                      other / ours,
-                      1,
-                      "",
-                      fmt::format("{} views read back equal", views.size())};
+  row.found = finding_of_bytes(
+      ours / count, other / count, fmt::format("{} views read back equal", views.size()));
   return {};
 }
 
@@ -60,8 +68,7 @@ Status held_bytes(const Circumstances& in, Row& row) {
   for (const ColumnView& view : views) ours += static_cast<double>(view.byte_size());
   ours /= static_cast<double>(views.size());
   const double pixels = static_cast<double>(in.camera.columns) * in.camera.rows;
-  row.found = Finding{
-      "B", ours, ours, pixels, pixels, pixels / ours, pixels / ours, 1, "", "the scorer's form"};
+  row.found = finding_of_bytes(ours, pixels, "the scorer's form");
   return {};
 }
 

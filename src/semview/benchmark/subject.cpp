@@ -2,11 +2,11 @@
 #include "semview/benchmark/subject.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "semview/benchmark/interleave.hpp"
 #include "semview/core/random.hpp"
 #include "semview/map/extrusion.hpp"
 #include "semview/raycast/column_renderer.hpp"
@@ -15,11 +15,35 @@
 namespace semview::benchmark {
 namespace {
 
-template <typename Work>
-double seconds_of(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+Result<std::shared_ptr<Subject>> prepare(std::string name, map::SemanticMap map) {
+  auto subject = std::make_shared<Subject>();
+  subject->name = std::move(name);
+  subject->map = std::make_shared<const map::SemanticMap>(std::move(map));
+  const map::ColumnMap* columns = subject->map->columns();
+  subject->mesh_s = seconds_of([&] {
+    subject->mesh = columns != nullptr ? map::extrude(*columns) : subject->map->mesh()->mesh;
+  });
+  auto built = Result<raycast::Scene>(tl::unexpect, Error{});
+  subject->scene_s = seconds_of([&] { built = raycast::Scene::build(subject->mesh); });
+  if (!built) return with_context(std::move(built), subject->name);
+  SEMVIEW_TRY(raycast::Scene scene, std::move(built));
+  subject->scene = std::make_shared<const raycast::Scene>(std::move(scene));
+  if (columns != nullptr) {
+    subject->columns_s = seconds_of([&] {
+      subject->columns =
+          std::make_shared<const raycast::ColumnScene>(raycast::ColumnScene::build(*columns));
+    });
+    subject->cells = map::build_cell_grid(*columns, kEyeHeight_m);
+  } else {
+    SEMVIEW_TRY(
+        subject->cells,
+        raycast::build_cell_grid(*subject->scene, subject->map->ground_height_m, kEyeHeight_m));
+  }
+  if (subject->sample(1).empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: no free cell to look from", subject->name));
+  }
+  return subject;
 }
 
 }  // namespace
@@ -48,36 +72,6 @@ raycast::PanoramaRequest Subject::request(const CellIndex& cell,
   request.eye_z_m = eye_z_m();
   request.camera = camera;
   return request;
-}
-
-static Result<std::shared_ptr<Subject>> prepare(std::string name, map::SemanticMap map) {
-  auto subject = std::make_shared<Subject>();
-  subject->name = std::move(name);
-  subject->map = std::make_shared<const map::SemanticMap>(std::move(map));
-  const map::ColumnMap* columns = subject->map->columns();
-  subject->mesh_s = seconds_of([&] {
-    subject->mesh = columns != nullptr ? map::extrude(*columns) : subject->map->mesh()->mesh;
-  });
-  auto built = Result<raycast::Scene>(tl::unexpect, Error{});
-  subject->scene_s = seconds_of([&] { built = raycast::Scene::build(subject->mesh); });
-  SEMVIEW_TRY(raycast::Scene scene, std::move(built));
-  subject->scene = std::make_shared<const raycast::Scene>(std::move(scene));
-  if (columns != nullptr) {
-    subject->columns_s = seconds_of([&] {
-      subject->columns =
-          std::make_shared<const raycast::ColumnScene>(raycast::ColumnScene::build(*columns));
-    });
-    subject->cells = map::build_cell_grid(*columns, kEyeHeight_m);
-  } else {
-    SEMVIEW_TRY(
-        subject->cells,
-        raycast::build_cell_grid(*subject->scene, subject->map->ground_height_m, kEyeHeight_m));
-  }
-  if (subject->sample(1).empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{}: no free cell to look from", subject->name));
-  }
-  return subject;
 }
 
 Result<std::shared_ptr<const Subject>> prepare_subject(std::string name, map::SemanticMap map) {

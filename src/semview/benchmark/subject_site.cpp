@@ -3,20 +3,9 @@
 
 #include <system_error>
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include "semview/benchmark/office_plan.hpp"
 
 namespace semview::benchmark::detail {
-
-ScratchFolder::ScratchFolder()
-    : path_(std::filesystem::temp_directory_path() / fmt::format("semview_bench_{}", getpid())) {}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 Result<std::filesystem::path> bundle_of(const Subject& subject, const ScratchFolder& folder) {
   if (!subject.office) {

@@ -2,8 +2,8 @@
 #include "semview/benchmark/suite.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,11 +27,10 @@ class LazySubject {
 
   const std::string& name() const { return name_; }
   bool drawn() const { return drawn_; }
-  Result<std::shared_ptr<const Subject>> get() {
-    if (made_ == nullptr) {
-      SEMVIEW_TRY(made_, load_());
-    }
-    return made_;
+  /// The error, too, is found once.
+  const Result<std::shared_ptr<const Subject>>& get() {
+    if (!made_) made_ = load_();
+    return *made_;
   }
   void forget() { made_.reset(); }
 
@@ -39,7 +38,7 @@ class LazySubject {
   std::string name_;
   bool drawn_;
   Load load_;
-  std::shared_ptr<const Subject> made_;
+  std::optional<Result<std::shared_ptr<const Subject>>> made_;
 };
 
 LazySubject office(const std::string& name, double width_m, double depth_m, double resolution_m) {
@@ -86,7 +85,17 @@ Extent extent_of(const SuiteConfig& config) {
   Extent extent;
   extent.turns.budget_s = config.budget_s;
   if (config.quick) {
-    extent = {2, 1, 4, 1, 32, 8, 24, 2, 10, 40, {0.0, 1, 1}};
+    extent = {.views = 2,
+              .slow_views = 1,
+              .cells = 4,
+              .slow_cells = 1,
+              .floor_cells = 32,
+              .stored_cells = 8,
+              .precomputed_cells = 24,
+              .cold_cells = 2,
+              .served_cells = 10,
+              .served_poses = 40,
+              .turns = {.budget_s = 0.0, .fewest_rounds = 1, .most_rounds = 1}};
   }
   return extent;
 }
@@ -151,11 +160,20 @@ Status check(const SuiteConfig& config, const std::vector<RowKind>& kinds) {
   return {};
 }
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+/// A plan that cannot be measured costs its own rows and no others.
+Status measure(Job& job, ThreadPool& pool, const Extent& extent, const SuiteConfig& config) {
+  SEMVIEW_TRY(const std::shared_ptr<const Subject> subject, job.subject->get());
+  return job.kind->measure({*subject, job.camera, pool, extent, config.engine, config.serve},
+                           job.row);
 }
 
 }  // namespace
+
+Status detail::without_peer(const Error& error, Row& row) {
+  if (error.code != ErrorCode::kNotFound) return fail(error);
+  row.note = error.message;
+  return {};
+}
 
 Goal detail::at_least(double ratio, std::optional<double> then) {
   std::string text = fmt::format("at least {:g}x", ratio);
@@ -181,6 +199,7 @@ Result<std::vector<Row>> run_suite(const SuiteConfig& config,
   const double begin_s = now_s();
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     Job& job = jobs[i];
+    if (config.stopped && config.stopped()) break;
     const double elapsed_s = now_s() - begin_s;
     const auto left = static_cast<double>(jobs.size() - i);
     // What making plans and comparing results takes beside the time that is measured.
@@ -189,14 +208,12 @@ Result<std::vector<Row>> run_suite(const SuiteConfig& config,
         i < 4 ? config.budget_s + kPreparation_s : elapsed_s / static_cast<double>(i);
     progress({i, jobs.size(), elapsed_s, left * each_s, &job.row});
     if (i > 0 && jobs[i - 1].subject != job.subject) jobs[i - 1].subject->forget();
-    SEMVIEW_TRY(const std::shared_ptr<const Subject> subject, job.subject->get());
     std::unique_ptr<ThreadPool>& pool = pools[job.row.threads];
     if (pool == nullptr)
       pool = std::make_unique<ThreadPool>(static_cast<std::size_t>(job.row.threads));
-    if (const Status status = job.kind->measure(
-            {*subject, job.camera, *pool, extent, config.engine, config.serve}, job.row);
-        !status) {
+    if (const Status status = measure(job, *pool, extent, config); !status) {
       job.row.note = status.error().message;
+      job.row.failed = true;
       job.row.disagrees = status.error().code == ErrorCode::kInternal;
     }
     rows.push_back(std::move(job.row));

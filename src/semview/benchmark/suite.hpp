@@ -25,7 +25,9 @@ struct SuiteConfig {
   /// One small plan, small panoramas and as few rounds as can be: checks that results agree, and
   /// its times say nothing.
   bool quick = false;
-  Serve serve = {};       ///< none: rows over TCP say that there is no server
+  Serve serve = {};  ///< none: rows over TCP say that there is no server
+  /// Asked before each row: true ends the measurement with the rows so far.
+  std::function<bool()> stopped = {};
   double budget_s = 0.6;  ///< of one measurement, beyond its fewest rounds
 };
 
@@ -45,7 +47,8 @@ struct Progress {
 };
 
 /// Measures everything that `config` asks for. Before anything is timed its results are compared
-/// with the alternative's; where they should agree and do not the row says so and has no times.
+/// with the alternative's; where they should agree and do not the row says so and has no times. A
+/// row that cannot be measured says why; the others are measured all the same.
 /// @errors kInvalidArgument: a row that there is none of, threads not in 1..256; those of
 /// `map::load_map`.
 Result<std::vector<Row>> run_suite(const SuiteConfig& config,

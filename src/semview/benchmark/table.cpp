@@ -46,7 +46,7 @@ const Line kHeads = {"row",
                      "the alternative",
                      "ratio",
                      "goal",
-                     ""};
+                     "results"};
 
 Line cells_of(const Row& row) {
   Line line = {row.id, row.claim, row.subject, row.size, std::to_string(row.threads)};
@@ -72,16 +72,16 @@ Line cells_of(const Row& row) {
 }  // namespace
 
 Finding finding_of(const Turns& turns, std::string agreement) {
-  return {"s",
-          turns.ours.least_s,
-          turns.ours.median_s,
-          turns.other.least_s,
-          turns.other.median_s,
-          turns.ratio(),
-          turns.median_ratio(),
-          turns.rounds,
-          std::string(name_of(turns.clock)),
-          std::move(agreement)};
+  return {.unit = "s",
+          .ours = turns.ours.least_s,
+          .ours_median = turns.ours.median_s,
+          .other = turns.other.least_s,
+          .other_median = turns.other.median_s,
+          .ratio = turns.ratio(),
+          .ratio_median = turns.median_ratio(),
+          .rounds = turns.rounds,
+          .clock = std::string(name_of(turns.clock)),
+          .agreement = std::move(agreement)};
 }
 
 std::optional<bool> Row::reached() const {

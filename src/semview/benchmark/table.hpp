@@ -45,7 +45,8 @@ struct Row {
   Goal goal;
   std::optional<Finding> found;  ///< none: `note` says why
   std::string note;
-  bool disagrees = false;  ///< results that should be the same are not; `note` says where
+  bool failed = false;     ///< it could not be measured, and not for want of a peer: see `note`
+  bool disagrees = false;  ///< results that should be the same are not: it failed
 
   /// None without a finding or a goal.
   std::optional<bool> reached() const;

@@ -29,7 +29,9 @@ constexpr const char* kDeviceSettings = nullptr;
 
 Status check(const map::TriangleMesh& mesh) {
   const std::size_t count = mesh.triangles.size();
-  if (count == 0) return fail(ErrorCode::kInvalidArgument, "mesh has no triangles");
+  if (count == 0)
+    return fail(ErrorCode::kInvalidArgument,
+                "there is no surface to see: a plan of nothing but outside, or no triangles");
   if (count > kMaxTriangles) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("mesh has {} triangles, more than {}", count, kMaxTriangles));
