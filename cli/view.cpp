@@ -18,6 +18,7 @@
 #include "semview/map/semantic_map.hpp"
 #include "semview/picture/shaded_picture.hpp"
 #include "semview/picture/view_picture.hpp"
+#include "semview/raycast/columns_engine.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
 #include "semview/raycast/pinhole_renderer.hpp"
 #include "semview/service/site.hpp"
@@ -109,6 +110,12 @@ Result<Seen> see_here(const Options& options, const Pose2& pose) {
     view.distances_m = std::move(panorama.ranges_m);
   } else {
     SEMVIEW_TRY(const PinholeCamera camera, read_pinhole(options.pinhole));
+    if (options.site.engine == raycast::ColumnsEngine::kName) {
+      return fail(Error{ErrorCode::kInvalidArgument,
+                        "--engine columns: casts panoramas only; a pinhole image takes --engine "
+                        "embree or auto",
+                        "--engine"});
+    }
     SEMVIEW_TRY(raycast::PinholeView pinhole,
                 name_option(site->exact_pinhole({level_camera(pose, eye_z_m), camera})));
     view.engine = site->pinhole_engine();

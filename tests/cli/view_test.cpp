@@ -64,7 +64,7 @@ TEST_F(ViewVerbTest, WritesTheIdsAndMillimetresOfAPanorama) {
 
 TEST_F(ViewVerbTest, WritesAPinholeView) {
   ASSERT_EQ(view(kMap + " --pose 2.35,-3.05,90 --pinhole 100,110,60,40,121,83 --labels " +
-                 file("ids.png") + " --range " + file("mm.png") + " --engine columns --json"),
+                 file("ids.png") + " --range " + file("mm.png") + " --json"),
             0)
       << err();
   EXPECT_THAT(out(), ::testing::HasSubstr("\"engine\": \"embree\""));
@@ -73,6 +73,11 @@ TEST_F(ViewVerbTest, WritesAPinholeView) {
       scene(), {level_camera({2.35, -3.05, kPi / 2.0}, 1.2), {121, 83, 100.0, 110.0, 60.0, 40.0}});
   EXPECT_EQ(io::read_png_grey(file("ids.png")).value(), truth.labels);
   EXPECT_EQ(io::read_png_grey16(file("mm.png")).value(), io::millimetres(truth.depths_m));
+}
+
+TEST_F(ViewVerbTest, ColumnsAreRefusedForAPinholeView) {
+  EXPECT_EQ(view(kMap + " --pose 2,-3,90 --pinhole 100,110,60,40,121,83 --engine columns"), 2);
+  EXPECT_THAT(err(), ::testing::HasSubstr("--engine columns: casts panoramas only"));
 }
 
 TEST_F(ViewVerbTest, CastsThroughAnAffine) {
