@@ -214,6 +214,8 @@ void print_summary(const LocalizeOptions& options,
   if (options.json) {
     nlohmann::ordered_json summary{
         {"estimate", options.output},
+        {"engine", scorer.engine},
+        {"engine_reason", scorer.engine_reason},
         {"weights", scorer.weights},
         {"frames", drive.frames.size()},
         {"scored", scored},
@@ -278,7 +280,11 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
 
   ask_to_stop_on_signals();
   if (!Progress::on_terminal()) {
-    log_info(fmt::format("localizing {} frames; weights: {}", log.frames.size(), scorer.weights));
+    log_info(fmt::format("localizing {} frames; engine {} ({}); weights: {}",
+                         log.frames.size(),
+                         scorer.engine,
+                         scorer.engine_reason,
+                         scorer.weights));
   }
   robot::Localizer localizer(config, *scorer.source, motion, std::move(start), options.seed);
   localizer.know_free_cells(scorer.free_cells);

@@ -71,6 +71,8 @@ Result<Scorer> open_in_process(const LocalizeOptions& options, const ClassTable&
   scorer.source = std::make_unique<similarity::SimilarityScoreSource>(
       scorer.site->views(), map.classes, std::move(weights.matrix), scorer.site->pool());
   scorer.free_cells = scorer.site->cells().free_cells();
+  scorer.engine = scorer.site->engine().name;
+  scorer.engine_reason = scorer.site->engine().reason;
   return scorer;
 }
 
@@ -85,6 +87,8 @@ Result<Scorer> open_remote(const LocalizeOptions& options, const ClassTable& obs
   Scorer scorer;
   scorer.weights = std::move(weights.name);
   scorer.free_cells = std::move(map.free_cells);
+  scorer.engine = std::move(map.engine);
+  scorer.engine_reason = std::move(map.engine_reason);
   SEMVIEW_TRY(scorer.source,
               client::RemoteScoreSource::open(config, options.map, std::move(weights.matrix)));
   return scorer;

@@ -18,6 +18,7 @@ struct Scorer {
   std::shared_ptr<service::Site> site;  ///< what `source` stands on; null with a server
   std::unique_ptr<ScoreSource> source;
   std::vector<CellIndex> free_cells;  ///< where a robot may start
+  std::string engine, engine_reason;  ///< what casts its views, and why
   std::string weights;                ///< where the weights come from, in words
 };
 

@@ -149,7 +149,7 @@ class Map:
     """One map of a server.
 
     id, name, fingerprint (hex), classes (names, the first has id 1), rows and columns of a view,
-    elevation_min_rad, elevation_max_rad, eye_height_m, ranges (views of cells have them), engine, free_cells: (n, 2) int32 of ix, iy.
+    elevation_min_rad, elevation_max_rad, eye_height_m, ranges (views of cells have them), engine and engine_reason (what casts and why), free_cells: (n, 2) int32 of ix, iy.
     """
 
     def __init__(self, connection, map_id):
@@ -169,6 +169,7 @@ class Map:
         self.ranges = reply.profile.ranges
         self.ground_height_m = reply.ground_height_m
         self.engine = reply.engine
+        self.engine_reason = reply.engine_reason
         runs = reply.free_cells
         self.free_cells = np.array(
             [
