@@ -119,5 +119,37 @@ TEST_F(FindDisagreementTest, FindsAnotherRangeOfTheSameClass) {
   EXPECT_GT(std::abs(found->seen_range_m - found->expected_range_m), 0.01F);
 }
 
+/// Columns whose runs have the planes of a world 5 cm aside.
+class BentPlanes final : public Engine {
+ public:
+  BentPlanes(const ColumnsEngine& right, const ColumnsEngine& aside)
+      : right_(right), aside_(aside) {}
+  std::string_view name() const override { return "bent"; }
+  std::uint32_t version() const override { return 1; }
+  Panorama panorama(const PanoramaRequest& request) const override {
+    return right_.panorama(request);
+  }
+  ColumnView column_view(const PanoramaRequest& request, bool ranges) const override {
+    return (ranges ? aside_ : right_).column_view(request, ranges);
+  }
+
+ private:
+  const ColumnsEngine& right_;
+  const ColumnsEngine& aside_;
+};
+
+TEST_F(FindDisagreementTest, FindsAnotherRangeInTheRunsAlone) {
+  const map::ColumnMap plan = two_rooms();
+  map::ColumnMap moved = plan;
+  moved.origin.x_m += 0.05;
+  const ColumnsEngine right(std::make_shared<const ColumnScene>(ColumnScene::build(plan)));
+  const ColumnsEngine aside(std::make_shared<const ColumnScene>(ColumnScene::build(moved)));
+  const EmbreeEngine embree(std::make_shared<const Scene>(*Scene::build(map::extrude(plan))));
+  const std::vector<CellIndex> cells = cells_to_check(plan, map::build_cell_grid(plan, kEye_m));
+  EXPECT_FALSE(find_disagreement(right, embree, cells, {}, plan.ground_height_m, pool_));
+  EXPECT_TRUE(
+      find_disagreement(BentPlanes(right, aside), embree, cells, {}, plan.ground_height_m, pool_));
+}
+
 }  // namespace
 }  // namespace semview::raycast

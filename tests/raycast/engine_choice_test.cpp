@@ -14,6 +14,7 @@ namespace semview::raycast {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class EngineChoiceTest : public ::testing::Test {
  protected:
@@ -41,6 +42,16 @@ TEST_F(EngineChoiceTest, APlanIsCastByColumnsOnceEmbreeAgrees) {
   ASSERT_TRUE(choice);
   EXPECT_EQ(choice->engine->name(), "columns");
   EXPECT_THAT(choice->reason, HasSubstr("embree sees the same from"));
+}
+
+TEST_F(EngineChoiceTest, WithoutAPlaceToCompareFromNoAgreementIsClaimed) {
+  map::ColumnMap low = plan_;
+  low.ceiling = map::Ceiling{5, 1.0};
+  cells_ = map::build_cell_grid(low, ViewProfile{}.eye_height_m);
+  const auto choice = choose("auto", &low);
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->engine->name(), "columns");
+  EXPECT_THAT(choice->reason, Not(HasSubstr("the same")));
 }
 
 TEST_F(EngineChoiceTest, AMeshIsCastByEmbree) {

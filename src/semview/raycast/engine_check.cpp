@@ -133,13 +133,17 @@ std::optional<Disagreement> compare_views(const Engine& engine,
                                           const PanoramaRequest& request) {
   const Panorama expected = reference.panorama(request);
   const Panorama seen = engine.panorama(request);
-  // What is stored and scored: a path of its own through an engine.
+  // What is stored and scored, without ranges and with them: paths of their own through an engine.
   const LabelImage labels = engine.column_view(request, false).to_labels();
+  const ColumnView view = engine.column_view(request, true);
+  const Panorama rebuilt{view.to_labels(), view.to_ranges(request.camera)};
   for (int r = 0; r < request.camera.rows; ++r) {
     for (int c = 0; c < request.camera.columns; ++c) {
       const Seen there{expected.labels.at(r, c), expected.ranges_m.at(r, c)};
-      for (const ClassId label : {labels.at(r, c), seen.labels.at(r, c)}) {
-        const Seen here{label, seen.ranges_m.at(r, c)};
+      const float range_m = seen.ranges_m.at(r, c);
+      for (const Seen& here : {Seen{labels.at(r, c), range_m},
+                               Seen{seen.labels.at(r, c), range_m},
+                               Seen{rebuilt.labels.at(r, c), rebuilt.ranges_m.at(r, c)}}) {
         const bool same =
             here.label == there.label && near_ranges(here.range_m, there.range_m, kSameRange_m);
         if (same || is_tie(reference, request, r, c, here)) continue;

@@ -57,6 +57,9 @@ Result<EngineChoice> choose_engine(std::string_view name,
       std::make_shared<const ColumnScene>(ColumnScene::build(*map.plan)));
   if (name == ColumnsEngine::kName) return EngineChoice{columns, "it was asked for"};
   const std::vector<CellIndex> cells = cells_to_check(*map.plan, map.cells);
+  if (cells.empty()) {
+    return EngineChoice{columns, "the map is a plan; from nowhere can it be compared with embree"};
+  }
   const std::optional<Disagreement> found =
       find_disagreement(*columns, *embree, cells, profile, map.ground_height_m, pool);
   if (!found) {
