@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/picture/box_plot.hpp"
 
+#include <regex>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,8 +30,11 @@ TEST(BoxPlotTest, EqualPlotsMakeEqualFiles) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_box_plot_svg(folder / "one.svg", two_panels()));
   ASSERT_TRUE(write_box_plot_svg(folder / "two.svg", two_panels()));
+  // Cairo numbers the surfaces of a process.
   const auto text = [&](const char* name) {
-    return *io::read_text_file(folder / name, std::size_t{1} << 24U);
+    return std::regex_replace(*io::read_text_file(folder / name, std::size_t{1} << 24U),
+                              std::regex("surface[0-9]+"),
+                              "surface");
   };
   EXPECT_EQ(text("one.svg"), text("two.svg"));
   EXPECT_THAT(text("one.svg"), HasSubstr("<svg"));

@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
-PARTS = ["src", "server", "client", "cli", "docs"]
+PARTS = ["src", "server", "client", "cli", "docs", "experiments"]
 
 
 class CheckLayersTest(unittest.TestCase):
