@@ -16,8 +16,7 @@ namespace semview::map {
 namespace {
 
 Status check(const MapAffine& affine) {
-  const auto is_scale = [](double scale) { return scale >= 0.2 && scale <= 5.0; };
-  if (is_scale(affine.a) && is_scale(affine.b) && affine.k >= -2.0 && affine.k <= 2.0) return {};
+  if (affine.in_range()) return {};
   return fail(
       ErrorCode::kInvalidArgument,
       fmt::format("scale {}, {} and shear {}: expected scales of 0.2 to 5 and a shear of -2 to 2",
