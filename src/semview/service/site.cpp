@@ -61,6 +61,11 @@ EngineChoice embree_because(std::string reason) {
           std::move(reason)};
 }
 
+/// What a person would name on the command line to look at the map.
+std::string place_of(const map::SemanticMap& map) {
+  return (map.mesh() != nullptr ? map.mesh()->file : map.directory).string();
+}
+
 /// Why the engine of cells does not cast this view; empty if it does.
 std::string unlike_cells(const map::SemanticMap& map, const raycast::PanoramaRequest& request) {
   const map::ColumnMap* columns = map.columns();
@@ -139,7 +144,7 @@ Result<std::shared_ptr<Site>> Site::of(map::SemanticMap map,
   auto parts = std::make_unique<Parts>();
   parts->map = std::move(map);
   Result<raycast::Scene> scene = raycast::Scene::build(parts->map);
-  if (!scene) return with_context(std::move(scene), parts->map.directory.string());
+  if (!scene) return with_context(std::move(scene), place_of(parts->map));
   parts->scene = std::make_shared<const raycast::Scene>(*std::move(scene));
   SEMVIEW_TRY(parts->cells, build_cells(parts->map, *parts->scene, config.profile.eye_height_m));
   if (!parts->cells.any_view()) {
@@ -151,7 +156,7 @@ Result<std::shared_ptr<Site>> Site::of(map::SemanticMap map,
                       "--eye-height",
                       fmt::format("semview map check --eye-height {} {} says why",
                                   config.profile.eye_height_m,
-                                  parts->map.directory.string())});
+                                  place_of(parts->map))});
   }
   parts->tiers = std::move(tiers);
   SEMVIEW_TRY(raycast::EngineChoice choice,
