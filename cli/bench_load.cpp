@@ -68,8 +68,7 @@ Result<LoadReport> load(const Options& options,
                         const Target& target,
                         const client::LoadWork& work) {
   SEMVIEW_TRY(const auto wire,
-              client::DealerWire::open(
-                  target.connection.endpoint, options.load.robots, options.load.timeout));
+              client::DealerWire::open(target.connection.endpoint, options.load.robots));
   return run_open_loop(options.load, work, *wire, steady_clock());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "admission.hpp"
 
+#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,7 +19,19 @@ tl::unexpected<Error> busy(std::string message) {
                     kRetryAfter_ms});
 }
 
+double ms_of(Duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
+
 }  // namespace
+
+Status check_wait(std::string_view method, Duration expected_wait, Duration budget) {
+  const int waits = method == "SetObservation" ? 2 : 1;
+  if (2 * waits * expected_wait <= budget) return {};
+  return busy(
+      fmt::format("{}: work of about {:.0f} ms comes first, too much for a budget of {:.0f} ms",
+                  method,
+                  ms_of(expected_wait),
+                  ms_of(budget)));
+}
 
 Admission::Admission(const service::Limits& limits, std::uint64_t max_queued_bytes)
     : limits_(limits), max_queued_bytes_(max_queued_bytes) {}

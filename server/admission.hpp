@@ -6,12 +6,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
+#include "semview/core/clock.hpp"
 #include "semview/core/result.hpp"
 #include "semview/service/limits.hpp"
 
 namespace semview::server {
+
+/// Will a request be begun soon enough to end within its budget, as far as can be told?
+///
+/// Half the budget may pass before: the work takes time too, and the expectation errs. Of that of a
+/// SetObservation a quarter: nobody has use for it without the Score that follows, and that waits
+/// as long once more.
+/// @errors kResourceExhausted: no.
+Status check_wait(std::string_view method, Duration expected_wait, Duration budget);
 
 /// Counts requests that are not answered yet.
 /// @threads For one thread; `in_flight` from any.

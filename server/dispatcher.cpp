@@ -36,12 +36,17 @@ class Dispatcher::Run : public std::enable_shared_from_this<Run> {
 
   void make_plan(std::uint64_t cells) {
     if (expired()) return;
+    const TimePoint begin = dispatcher_.clock_.now();
     Result<Plan> plan =
         guarded<Plan>(request_.method, [this] { return dispatcher_.planner_(request_); });
     dispatcher_.count(request_.client_name, cells);
     if (!plan) return end(fail(std::move(plan).error()));
     request_.body = {};
     plan_ = *std::move(plan);
+    std::uint64_t cells_to_come = 0;
+    for (const Chunk& chunk : plan_.chunks) cells_to_come += chunk.cells;
+    dispatcher_.costs_.add_request(
+        request_.client, request_.method, {cells, dispatcher_.clock_.now() - begin}, cells_to_come);
     remaining_ = plan_.chunks.size();
     if (plan_.chunks.empty()) return finish();
     for (std::size_t i = 1; i < plan_.chunks.size(); ++i) push(i);
@@ -52,7 +57,9 @@ class Dispatcher::Run : public std::enable_shared_from_this<Run> {
  private:
   void push(std::size_t index) {
     const std::uint64_t cells = plan_.chunks[index].cells;
-    Task task{cells, [self = shared_from_this(), index] { self->run_chunk(index); }};
+    Task task{cells,
+              [self = shared_from_this(), index] { self->run_chunk(index); },
+              dispatcher_.costs_.of_part(request_.client, request_.method, cells)};
     // A closed queue means that the server is being taken down: its workers still empty it, and
     // this worker sees to what can no longer be queued.
     if (!dispatcher_.queue_.push(request_.client, std::move(task))) run_chunk(index);
@@ -61,9 +68,16 @@ class Dispatcher::Run : public std::enable_shared_from_this<Run> {
   void run_chunk(std::size_t index) {
     Chunk& chunk = plan_.chunks[index];
     if (!over_ && !expired()) {
+      const TimePoint begin = dispatcher_.clock_.now();
       Status status = guarded<void>(request_.method, chunk.run);
       dispatcher_.count(request_.client_name, chunk.cells);
-      if (!status) end(fail(std::move(status).error()));
+      // An error may come long before the work is done: it tells nothing.
+      if (status) {
+        dispatcher_.costs_.add_part(
+            request_.client, request_.method, {chunk.cells, dispatcher_.clock_.now() - begin});
+      } else {
+        end(fail(std::move(status).error()));
+      }
     }
     if (--remaining_ == 0 && !over_) finish();
   }
@@ -111,8 +125,17 @@ Dispatcher::~Dispatcher() {
 
 void Dispatcher::submit(Request request, std::uint64_t cells, Reply reply) {
   const std::string client = request.client;
+  const Work expected = costs_.of_request(client, request.method);
   const auto run = std::make_shared<Run>(*this, std::move(request), std::move(reply));
-  queue_.push(client, {cells, [run, cells] { run->make_plan(cells); }});
+  queue_.push(client, {cells, [run, cells] { run->make_plan(cells); }, expected});
+}
+
+Duration Dispatcher::expected_wait(const std::string& client, std::uint64_t cells) const {
+  return queue_.expected_wait(client, cells) / static_cast<Duration::rep>(workers_.size());
+}
+
+Duration Dispatcher::expected_wait(const std::string& client, const std::string& method) const {
+  return expected_wait(client, costs_.of_request(client, method).cells);
 }
 
 void Dispatcher::count(const std::string& client_name, std::uint64_t cells) {

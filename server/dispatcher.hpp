@@ -17,6 +17,7 @@
 #include "plan.hpp"
 #include "semview/core/clock.hpp"
 #include "semview/core/result.hpp"
+#include "work_costs.hpp"
 
 namespace semview::server {
 
@@ -55,6 +56,12 @@ class Dispatcher {
 
   std::uint64_t queued_cells() const { return queue_.queued_cells(); }
 
+  /// How long it is expected to take until the workers turn to the last of `cells` more of this
+  /// client. @threads any
+  Duration expected_wait(const std::string& client, std::uint64_t cells) const;
+  /// The same of a request that nobody has looked at yet.
+  Duration expected_wait(const std::string& client, const std::string& method) const;
+
   /// Cells of finished chunks and plans by client name; the names beyond a thousand are together
   /// under "(others)".
   std::map<std::string, std::uint64_t> cells_by_client() const;
@@ -67,6 +74,7 @@ class Dispatcher {
   FairQueue queue_;
   const Planner planner_;
   const Clock& clock_;
+  WorkCosts costs_;
   std::atomic<bool> abandoned_{false};
   mutable std::mutex mutex_;
   std::map<std::string, std::uint64_t> cells_by_client_;

@@ -2,6 +2,7 @@
 #include "fair_queue.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace semview::server {
 
@@ -14,13 +15,11 @@ bool FairQueue::push(const std::string& client, Task task) {
     const auto [entry, added] = clients_.try_emplace(client);
     if (added) {
       // A client that has just had its share keeps its place; one that was away gains nothing.
-      entry->second.served = now_;
-      if (const auto found = ahead_.find(client); found != ahead_.end()) {
-        entry->second.served = std::max(now_, found->second);
-        ahead_.erase(found);
-      }
+      entry->second.served = served_at_arrival(client);
+      ahead_.erase(client);
       turns_.emplace(std::pair(entry->second.served, client), &entry->second);
     }
+    entry->second.expected += task.expected;
     entry->second.tasks.push_back(std::move(task));
   }
   has_task_.notify_one();
@@ -39,6 +38,7 @@ std::optional<Task> FairQueue::pop() {
   Task task = std::move(client.tasks.front());
   client.tasks.pop_front();
   queued_cells_ -= task.cells;
+  client.expected -= task.expected;
   client.served += task.cells;
   if (!client.tasks.empty()) {
     turns_.emplace(std::pair(client.served, name), &client);
@@ -66,6 +66,32 @@ void FairQueue::close() {
 std::uint64_t FairQueue::queued_cells() const {
   const std::lock_guard lock(mutex_);
   return queued_cells_;
+}
+
+Duration FairQueue::expected_wait(const std::string& client, std::uint64_t cells) const {
+  const std::lock_guard lock(mutex_);
+  const auto own = clients_.find(client);
+  const std::uint64_t begun = own == clients_.end()
+                                  ? served_at_arrival(client)
+                                  : own->second.served + own->second.expected.cells;
+  const std::uint64_t last = begun + cells;
+  Duration wait{};
+  for (const auto& [name, other] : clients_) {
+    const Work& work = other.expected;
+    const std::uint64_t share = last > other.served ? last - other.served : 0;
+    if (name == client || share >= work.cells) {
+      wait += work.time;
+    } else {
+      const double part = static_cast<double>(share) / static_cast<double>(work.cells);
+      wait += std::chrono::duration_cast<Duration>(part * work.time);
+    }
+  }
+  return wait;
+}
+
+std::uint64_t FairQueue::served_at_arrival(const std::string& client) const {
+  const auto found = ahead_.find(client);
+  return found == ahead_.end() ? now_ : std::max(now_, found->second);
 }
 
 }  // namespace semview::server

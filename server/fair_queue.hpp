@@ -13,12 +13,15 @@
 #include <unordered_map>
 #include <utility>
 
+#include "work_costs.hpp"
+
 namespace semview::server {
 
 /// A piece of work and what it is reckoned to cost.
 struct Task {
   std::uint64_t cells = 1;  ///< estimate, at least 1: views to score, cast or send
   std::function<void()> run;
+  Work expected = {};  ///< all that comes of it: of a request not planned yet the whole
 };
 
 /// Gives every client the same share of the workers, measured in cells and not in requests.
@@ -41,13 +44,22 @@ class FairQueue {
 
   std::uint64_t queued_cells() const;
 
+  /// How long one worker is expected to take for what is given out before the last of `cells` more
+  /// of this client: its own tasks, and of each other client's no more than their share.
+  /// @cost O(clients with a task waiting)
+  Duration expected_wait(const std::string& client, std::uint64_t cells) const;
+
  private:
   struct Client {
     std::deque<Task> tasks;
+    Work expected;             ///< of `tasks`
     std::uint64_t served = 0;  ///< virtual time: cells given out, level with others at arrival
   };
   /// (served, client): the first is next.
   using Turns = std::map<std::pair<std::uint64_t, std::string>, Client*>;
+
+  /// What `served` of a client is that now comes with its first task.
+  std::uint64_t served_at_arrival(const std::string& client) const;
 
   mutable std::mutex mutex_;
   std::condition_variable has_task_;

@@ -117,7 +117,7 @@ Result<Plan> plan_heatmap(Services& services, const Request& request) {
     SEMVIEW_TRY(heat->cell_weight, cell_weight(wire.posterior()));
   }
   SEMVIEW_TRY(heat->cells, heat_cells(services, *heat->site, wire));
-  SEMVIEW_TRY_STATUS(check_queue(services, heat->cells.size(), "region"));
+  SEMVIEW_TRY_STATUS(check_queue(services, request, heat->cells.size(), "region"));
 
   const auto by_ix = [](const CellIndex& a, const CellIndex& b) { return a.ix < b.ix; };
   const auto [west, east] = std::minmax_element(heat->cells.begin(), heat->cells.end(), by_ix);

@@ -130,9 +130,14 @@ Result<SharedObservation> find_observation(Services& services,
   return stored->prepared;
 }
 
-Status check_queue(const Services& services, std::size_t cells, std::string_view field) {
+Status check_queue(const Services& services,
+                   const Request& request,
+                   std::size_t cells,
+                   std::string_view field) {
   const std::uint64_t waiting = services.queued_cells();
-  if (waiting + cells <= services.limits.max_queued_cells) return {};
+  if (waiting + cells <= services.limits.max_queued_cells) {
+    return services.check_wait(request, cells);
+  }
   return fail(Error{ErrorCode::kResourceExhausted,
                     fmt::format("{}: {} cells on top of the {} that wait are more than {}",
                                 field,

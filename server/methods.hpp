@@ -64,6 +64,8 @@ struct Services {
   std::uint16_t events_port = 0;
   std::function<ServerCounters()> counters;
   std::function<std::uint64_t()> queued_cells;
+  /// `check_wait` for a request that has turned out to be of so many cells.
+  std::function<Status(const Request&, std::uint64_t cells)> check_wait;
   std::function<void()> job_was_started;
   /// Chunks already run side by side, so each scores in the worker's own thread.
   ThreadPool inline_pool{1};
@@ -114,9 +116,12 @@ Result<SharedObservation> find_observation(Services& services,
                                            const std::string& id,
                                            const std::string& map_id);
 
-/// Refuses work for which the queue has no room.
-/// @errors kResourceExhausted, with `field`.
-Status check_queue(const Services& services, std::size_t cells, std::string_view field);
+/// Refuses work for which the queue has no room, or that would be begun too late.
+/// @errors kResourceExhausted; with `field` if there is no room.
+Status check_queue(const Services& services,
+                   const Request& request,
+                   std::size_t cells,
+                   std::string_view field);
 
 protocol::JobProgress progress_of(const Services& services, const service::JobStatus& status);
 

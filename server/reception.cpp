@@ -99,12 +99,10 @@ void Reception::take(Incoming incoming, Dispatcher& dispatcher) {
   if (Status status = read_header(incoming, &header); !status) {
     return refuse(incoming, header.request_id(), std::move(status).error());
   }
-  if (Status status = admit(incoming, header, dispatcher); !status) {
+  const std::chrono::milliseconds budget = budget_of(header);
+  if (Status status = admit(incoming, header, budget, dispatcher); !status) {
     return refuse(incoming, header.request_id(), std::move(status).error());
   }
-  const std::uint32_t budget_ms = header.deadline_ms() == 0
-                                      ? config_.default_deadline_ms
-                                      : std::min(header.deadline_ms(), config_.max_deadline_ms);
   const std::size_t bytes = incoming.body.size();
   const TimePoint received = clock_.now();
   // Admitted: there is such a method.
@@ -114,7 +112,7 @@ void Reception::take(Incoming incoming, Dispatcher& dispatcher) {
                   header.client_name(),
                   header.method(),
                   std::move(incoming.body),
-                  received + std::chrono::milliseconds(budget_ms)};
+                  received + budget};
   dispatcher.submit(std::move(request),
                     planning_cells(header.method()),
                     [this,
@@ -149,9 +147,16 @@ Status Reception::read_header(const Incoming& incoming, v1::RequestHeader* heade
   return protocol::validate(*header);
 }
 
-/// @errors kUnavailable: the server is shutting down; those of `Admission::check`.
+std::chrono::milliseconds Reception::budget_of(const v1::RequestHeader& header) const {
+  return std::chrono::milliseconds(header.deadline_ms() == 0
+                                       ? config_.default_deadline_ms
+                                       : std::min(header.deadline_ms(), config_.max_deadline_ms));
+}
+
+/// @errors kUnavailable: the server is shutting down; those of `Admission::check` and `check_wait`.
 Status Reception::admit(const Incoming& incoming,
                         const v1::RequestHeader& header,
+                        std::chrono::milliseconds budget,
                         const Dispatcher& dispatcher) const {
   if (closing_) {
     return fail(Error{ErrorCode::kUnavailable,
@@ -160,11 +165,13 @@ Status Reception::admit(const Incoming& incoming,
                       "send it again when the server is back",
                       kRetryAfter_ms});
   }
-  return admission_.check(incoming.client,
-                          header.method(),
-                          incoming.body.size(),
-                          outbox_.waiting(incoming.client),
-                          dispatcher.queued_cells());
+  SEMVIEW_TRY_STATUS(admission_.check(incoming.client,
+                                      header.method(),
+                                      incoming.body.size(),
+                                      outbox_.waiting(incoming.client),
+                                      dispatcher.queued_cells()));
+  return check_wait(
+      header.method(), dispatcher.expected_wait(incoming.client, header.method()), budget);
 }
 
 void Reception::refuse(const Incoming& incoming, std::uint64_t request_id, Error error) {

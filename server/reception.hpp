@@ -65,7 +65,9 @@ class Reception {
   Status read_header(const Incoming& incoming, v1::RequestHeader* header);
   Status admit(const Incoming& incoming,
                const v1::RequestHeader& header,
+               std::chrono::milliseconds budget,
                const Dispatcher& dispatcher) const;
+  std::chrono::milliseconds budget_of(const v1::RequestHeader& header) const;
   void refuse(const Incoming& incoming, std::uint64_t request_id, Error error);
   void send_finished();
 

@@ -200,7 +200,7 @@ Result<Plan> plan_score(Services& services, const Request& request) {
 
   Plan plan;
   plan.chunks = cut_cells(scoring, services.inline_pool);
-  SEMVIEW_TRY_STATUS(check_queue(services, plan.chunks.size() * kCellsPerChunk, "poses"));
+  SEMVIEW_TRY_STATUS(check_queue(services, request, plan.chunks.size() * kCellsPerChunk, "poses"));
   plan.finish = [scoring]() -> Result<std::string> {
     SEMVIEW_TRY(const ScoreBatch batch, collect(*scoring));
     return protocol::to_wire(batch).SerializeAsString();

@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "admission.hpp"
 #include "dispatcher.hpp"
 #include "job_runner.hpp"
 #include "reception.hpp"
@@ -40,6 +41,11 @@ class Server::Parts {
     services_.events_port = reception_.sockets().events_port();
     services_.counters = [this] { return counters(); };
     services_.queued_cells = [this] { return dispatcher_.queued_cells(); };
+    services_.check_wait = [this](const Request& request, std::uint64_t cells) {
+      return check_wait(request.method,
+                        dispatcher_.expected_wait(request.client, cells),
+                        request.deadline - clock_.now());
+    };
     services_.job_was_started = [this] { job_runner_.wake(); };
     services_.jobs.on_change([this](const service::JobStatus& status) { announce(status); });
     io_thread_ = std::thread([this] { reception_.run(dispatcher_); });

@@ -90,8 +90,7 @@ Status check_is_this_machine(const std::string& endpoint) {
 
 class DealerWire::Lines {
  public:
-  Lines(const std::string& endpoint, std::size_t robots, std::chrono::milliseconds deadline)
-      : deadline_(deadline) {
+  Lines(const std::string& endpoint, std::size_t robots) {
     context_.set(zmq::ctxopt::max_sockets, static_cast<int>(robots) + 1);
     for (std::size_t i = 0; i < robots; ++i) {
       zmq::socket_t& line = lines_.emplace_back(context_, zmq::socket_type::dealer);
@@ -106,12 +105,13 @@ class DealerWire::Lines {
   void send(std::size_t robot,
             std::uint64_t request_id,
             std::string_view method,
-            std::string_view body) {
+            std::string_view body,
+            std::chrono::milliseconds budget) {
     v1::RequestHeader header;
     header.set_request_id(request_id);
     header.set_method(std::string(method));
     header.set_protocol_version(protocol::kProtocolVersion);
-    header.set_deadline_ms(static_cast<std::uint32_t>(deadline_.count()));
+    header.set_deadline_ms(static_cast<std::uint32_t>(budget.count()));
     header.set_client_name("load");
     constexpr auto kNow = zmq::send_flags::dontwait;
     const std::string head = header.SerializeAsString();
@@ -160,7 +160,6 @@ class DealerWire::Lines {
     }
   }
 
-  const std::chrono::milliseconds deadline_;
   zmq::context_t context_{1};
   std::vector<zmq::socket_t> lines_;
   std::vector<pollfd> files_;  ///< one a line
@@ -168,8 +167,7 @@ class DealerWire::Lines {
 };
 
 Result<std::unique_ptr<DealerWire>> DealerWire::open(const std::string& endpoint,
-                                                     std::size_t robots,
-                                                     std::chrono::milliseconds deadline) {
+                                                     std::size_t robots) {
   SEMVIEW_TRY_STATUS(check_is_this_machine(endpoint));
   const std::size_t wanted = robots * kDescriptorsOfLine + kOtherDescriptors;
   if (const std::size_t allowed = allowed_descriptors(); allowed < wanted) {
@@ -182,8 +180,7 @@ Result<std::unique_ptr<DealerWire>> DealerWire::open(const std::string& endpoint
                       "raise it with ulimit -n"});
   }
   try {
-    return std::unique_ptr<DealerWire>(
-        new DealerWire(std::make_unique<Lines>(endpoint, robots, deadline)));
+    return std::unique_ptr<DealerWire>(new DealerWire(std::make_unique<Lines>(endpoint, robots)));
   } catch (const zmq::error_t& error) {
     return fail(Error{ErrorCode::kInvalidArgument,
                       fmt::format("--server {}: {}", endpoint, error.what()),
@@ -197,8 +194,9 @@ DealerWire::~DealerWire() = default;
 void DealerWire::send(std::size_t robot,
                       std::uint64_t request_id,
                       std::string_view method,
-                      std::string_view body) {
-  lines_->send(robot, request_id, method, body);
+                      std::string_view body,
+                      std::chrono::milliseconds budget) {
+  lines_->send(robot, request_id, method, body, budget);
 }
 
 std::optional<LoadReply> DealerWire::receive(TimePoint until) { return lines_->receive(until); }

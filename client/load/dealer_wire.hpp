@@ -23,15 +23,14 @@ class DealerWire final : public LoadWire {
  public:
   /// @errors those of `check_is_this_machine`; kInvalidArgument, field `--robots`: more than this
   /// process may have sockets.
-  static Result<std::unique_ptr<DealerWire>> open(const std::string& endpoint,
-                                                  std::size_t robots,
-                                                  std::chrono::milliseconds deadline);
+  static Result<std::unique_ptr<DealerWire>> open(const std::string& endpoint, std::size_t robots);
   ~DealerWire() override;
 
   void send(std::size_t robot,
             std::uint64_t request_id,
             std::string_view method,
-            std::string_view body) override;
+            std::string_view body,
+            std::chrono::milliseconds budget) override;
   std::optional<LoadReply> receive(TimePoint until) override;
 
  private:

@@ -20,7 +20,7 @@ struct LoadReport {
   std::size_t in_time = 0;    ///< of these: soon enough for a robot (`LoadConfig::in_time`)
   std::size_t refused = 0;    ///< RESOURCE_EXHAUSTED
   std::size_t failed = 0;     ///< any other error
-  std::size_t timed_out = 0;  ///< no answer before the time limit
+  std::size_t timed_out = 0;  ///< too late for the server, or no answer before the time limit
   double p50_ms = 0.0;
   double p95_ms = 0.0;
   double p99_ms = 0.0;

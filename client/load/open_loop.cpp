@@ -66,7 +66,13 @@ class OpenLoop {
 
   void send(std::size_t cycle, std::string_view method, std::string_view body) {
     open_.emplace(++last_id_, Open{cycle, method == "SetObservation"});
-    wire_.send(robot_of(cycle), last_id_, method, body);
+    wire_.send(robot_of(cycle), last_id_, method, body, time_left(cycle));
+  }
+
+  std::chrono::milliseconds time_left(std::size_t cycle) const {
+    return std::max(
+        std::chrono::floor<std::chrono::milliseconds>(due(cycle) + config_.in_time - clock_.now()),
+        std::chrono::milliseconds(1));
   }
 
   /// Cycles in the order of their beginning: the first is the first whose time is up.
@@ -94,8 +100,7 @@ class OpenLoop {
     if (over_[open.cycle]) return;
     if (!reply.body) {
       over_[open.cycle] = true;
-      ++(reply.body.error().code == ErrorCode::kResourceExhausted ? report_.refused
-                                                                  : report_.failed);
+      ++count_of(reply.body.error().code);
       return;
     }
     if (!open.observing) return end(open.cycle);
@@ -108,6 +113,12 @@ class OpenLoop {
     send(open.cycle,
          "Score",
          bodies_.score(robot_of(open.cycle), turn_of(open.cycle), observed->observation_id()));
+  }
+
+  std::size_t& count_of(ErrorCode code) {
+    if (code == ErrorCode::kResourceExhausted) return report_.refused;
+    if (code == ErrorCode::kDeadlineExceeded) return report_.timed_out;
+    return report_.failed;
   }
 
   void end(std::size_t cycle) {

@@ -49,17 +49,20 @@ struct LoadReply {
 class LoadWire {
  public:
   virtual ~LoadWire() = default;
+  /// @param budget  How long the robot has use for the answer; at least 1 ms.
   virtual void send(std::size_t robot,
                     std::uint64_t request_id,
                     std::string_view method,
-                    std::string_view body) = 0;
+                    std::string_view body,
+                    std::chrono::milliseconds budget) = 0;
   /// The next reply of any robot; `nullopt` at `until`.
   virtual std::optional<LoadReply> receive(TimePoint until) = 0;
 };
 
 /// Lets robots load a server: SetObservation, then Score, at `rate_hz` each, their cycles spread
-/// evenly over time. A cycle's time runs from the moment at which it was meant to begin, so a
-/// server that stalls is charged for every cycle that it holds up and not for one.
+/// evenly over time. Each request tells the server what is left of `in_time`, as a robot does that
+/// knows when it is too late. A cycle's time runs from the moment at which it was meant to begin,
+/// so a server that stalls is charged for every cycle that it holds up and not for one.
 ///
 /// Ends when all cycles have ended, `config.seconds` + `config.timeout` after the start at the
 /// latest.

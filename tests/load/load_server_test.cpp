@@ -19,7 +19,7 @@ class LoadServerTest : public ClientFixture {
  protected:
   Result<client::LoadReport> run(const LoadConfig& load, LoadKind kind) const {
     SEMVIEW_TRY(const LoadWork work, LoadWork::prepare(config(), "room", kind));
-    SEMVIEW_TRY(const auto wire, DealerWire::open(endpoint_, load.robots, load.timeout));
+    SEMVIEW_TRY(const auto wire, DealerWire::open(endpoint_, load.robots));
     return run_open_loop(load, work, *wire, steady_clock());
   }
 };
@@ -29,6 +29,7 @@ TEST_F(LoadServerTest, AFewRobotsAreAllAnswered) {
   load.robots = 3;
   load.seconds = 0.5;
   load.timeout = std::chrono::seconds(20);
+  load.in_time = load.timeout;
   for (const LoadKind kind : {LoadKind::kGlobal, LoadKind::kTracking}) {
     const auto report = run(load, kind);
     ASSERT_TRUE(report) << report.error().message;
@@ -47,7 +48,7 @@ TEST_F(LoadServerTest, ServersThatAreGoneCostTheTimeLimitAndNoMore) {
   const auto work = LoadWork::prepare(config(), "room", LoadKind::kTracking);
   ASSERT_TRUE(work);
   stop();
-  const auto wire = DealerWire::open(endpoint_, load.robots, load.timeout);
+  const auto wire = DealerWire::open(endpoint_, load.robots);
   const auto report = run_open_loop(load, *work, **wire, steady_clock());
   EXPECT_EQ(report->timed_out, report->cycles);
 }

@@ -33,14 +33,18 @@ class PretendedServer final : public LoadWire {
   Duration service = milliseconds(0);         ///< of each request
   TimePoint stalled_from{}, stalled_until{};  ///< nothing is begun in between
   std::function<bool(std::uint64_t)> refuses = [](std::uint64_t) { return false; };
+  std::function<bool(std::uint64_t)> expires = [](std::uint64_t) { return false; };
   std::function<bool(std::uint64_t)> forgets = [](std::uint64_t) { return false; };
   std::vector<TimePoint> observed_at;  ///< when SetObservation came
   std::vector<std::size_t> robots;     ///< and from whom
+  std::vector<milliseconds> budgets;   ///< of all requests
 
   void send(std::size_t robot,
             std::uint64_t id,
             std::string_view method,
-            std::string_view body) override {
+            std::string_view body,
+            milliseconds budget) override {
+    budgets.push_back(budget);
     if (method == "SetObservation") {
       observed_at.push_back(clock_.now());
       robots.push_back(robot);
@@ -56,6 +60,7 @@ class PretendedServer final : public LoadWire {
     reply.set_observation_id("seen");
     Result<std::string> answer = reply.SerializeAsString();
     if (refuses(id)) answer = fail(ErrorCode::kResourceExhausted, "busy");
+    if (expires(id)) answer = fail(ErrorCode::kDeadlineExceeded, "late");
     replies_.emplace(free_, LoadReply{id, std::move(answer)});
   }
 
@@ -150,6 +155,23 @@ TEST_F(OpenLoopTest, RefusalsAreCountedAndMakeNoServerQuick) {
   EXPECT_GT(report.refused, 0U);
   EXPECT_EQ(report.answered + report.refused, report.cycles);
   EXPECT_EQ(report.max_ms, 2000.0);
+}
+
+TEST_F(OpenLoopTest, TheServerIsToldWhatIsLeftOfTheTimeInWhichAnAnswerIsOfUse) {
+  server_.service = milliseconds(100);
+  LoadConfig config;
+  config.seconds = 0.5;
+  config.rate_hz = 2.0;
+  run(config);
+  EXPECT_EQ(server_.budgets, (std::vector{milliseconds(250), milliseconds(150)}));
+}
+
+TEST_F(OpenLoopTest, WhatIsTooLateForTheServerIsLost) {
+  server_.expires = [](std::uint64_t id) { return id % 2 == 0; };
+  const LoadReport report = run({});
+  EXPECT_EQ(report.timed_out, report.cycles);
+  EXPECT_EQ(report.failed, 0U);
+  EXPECT_EQ(report.p50_ms, 2000.0);
 }
 
 TEST_F(OpenLoopTest, ARunEndsThoughNothingIsEverAnswered) {

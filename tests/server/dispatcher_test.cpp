@@ -142,6 +142,44 @@ TEST_F(DispatcherTest, WhatThrowsIsAnInternalErrorAndTheWorkerLives) {
   EXPECT_TRUE(ask(dispatcher, request()));
 }
 
+TEST_F(DispatcherTest, TheWaitIsToldFromWhatRequestsHaveCost) {
+  std::promise<void> begun;
+  std::promise<void> go_on;
+  Dispatcher dispatcher(
+      1,
+      [&](const Request& asked) -> Result<Plan> {
+        if (asked.body == "held") {
+          begun.set_value();
+          go_on.get_future().wait();
+          return answer("");
+        }
+        Plan plan;
+        // With its planning 20 cells, 10 ms each.
+        plan.chunks.push_back({19, [this]() -> Status {
+                                 clock_.advance(milliseconds(200));
+                                 return {};
+                               }});
+        plan.finish = []() -> Result<std::string> { return "done"; };
+        return plan;
+      },
+      clock_);
+  EXPECT_EQ(dispatcher.expected_wait("client", "Method"), Duration::zero());
+  ASSERT_TRUE(ask(dispatcher, request()));
+  Request held = request();
+  held.body = "held";
+  held.client = "other";
+  held.method = "Held";
+  const auto nobody_asks = [](const Result<std::string>&) {};
+  dispatcher.submit(held, 1, nobody_asks);
+  begun.get_future().wait();
+  EXPECT_EQ(dispatcher.expected_wait("client", "Method"), Duration::zero());
+  dispatcher.submit(request(), 1, nobody_asks);
+  dispatcher.submit(request(), 1, nobody_asks);
+  EXPECT_EQ(dispatcher.expected_wait("client", "Method"), milliseconds(400));
+  EXPECT_EQ(dispatcher.expected_wait("another", 10), milliseconds(100));
+  go_on.set_value();
+}
+
 TEST_F(DispatcherTest, TheDestructorAnswersWhatIsInside) {
   std::atomic<int> answers{0};
   {

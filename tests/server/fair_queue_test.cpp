@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <string>
 #include <thread>
@@ -21,6 +22,13 @@ class FairQueueTest : public testing::Test {
       ASSERT_TRUE(queue_.push(client, {cells, [this, client] { served_.push_back(client); }}));
     }
   }
+  /// Work that one worker is expected to take a second a cell for.
+  void push_slow(const std::string& client, std::uint64_t cells, int count = 1) {
+    for (int i = 0; i < count; ++i) {
+      ASSERT_TRUE(queue_.push(client, {cells, [] {}, {cells, seconds(cells)}}));
+    }
+  }
+  static Duration seconds(std::uint64_t count) { return std::chrono::seconds(count); }
   void serve(int count) {
     for (int i = 0; i < count; ++i) queue_.pop()->run();
   }
@@ -90,6 +98,34 @@ TEST_F(FairQueueTest, QueuedCellsAreThoseWaiting) {
   EXPECT_EQ(queue_.queued_cells(), 25U);
   serve(3);
   EXPECT_EQ(queue_.queued_cells(), 0U);
+}
+
+TEST_F(FairQueueTest, ItsOwnTasksComeFirstAllOfThem) {
+  EXPECT_EQ(queue_.expected_wait("a", 10), Duration::zero());
+  push_slow("a", 64, 3);
+  EXPECT_EQ(queue_.expected_wait("a", 1), seconds(192));
+  serve(1);
+  EXPECT_EQ(queue_.expected_wait("a", 1), seconds(128));
+  serve(2);
+  EXPECT_EQ(queue_.expected_wait("a", 1), Duration::zero());
+}
+
+TEST_F(FairQueueTest, OfAGreedyClientNoMoreComesFirstThanItsShare) {
+  push_slow("greedy", 64, 1000);
+  EXPECT_EQ(queue_.expected_wait("robot", 30), seconds(30));
+  EXPECT_EQ(queue_.expected_wait("greedy", 30), seconds(64'000));
+  push_slow("robot", 30);
+  EXPECT_EQ(queue_.expected_wait("robot", 10), seconds(30 + 40));
+}
+
+TEST_F(FairQueueTest, AClientThatHasHadItsShareWaitsLongerThanANewcomer) {
+  push_slow("a", 64, 2);
+  push_slow("b", 64, 10);
+  serve(4);
+  EXPECT_EQ(queue_.expected_wait("a", 1), seconds(1));
+  EXPECT_EQ(queue_.expected_wait("new", 1), Duration::zero());
+  push_slow("new", 10);
+  EXPECT_EQ(queue_.expected_wait("a", 1), seconds(1 + 10));
 }
 
 TEST_F(FairQueueTest, AClosedQueueGivesOutWhatIsInsideAndThenEnds) {
