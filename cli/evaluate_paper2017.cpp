@@ -13,14 +13,19 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "estimates_option.hpp"
 #include "evaluate_verbs.hpp"
 #include "experiments/paper2017/experiment.hpp"
+#include "experiments/paper2017/foreign_estimates.hpp"
 #include "experiments/paper2017/report.hpp"
 #include "experiments/paper2017/report_files.hpp"
 #include "experiments/paper2017/results.hpp"
 #include "experiments/paper2017/revision.hpp"
+#include "experiments/paper2017/world_export.hpp"
 #include "semview/core/clock.hpp"
+#include "semview/io/text_file.hpp"
 #include "site_options.hpp"
+#include "starts_option.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -32,6 +37,8 @@ struct Options {
   std::vector<std::string> starts;
   std::string out = "paper2017_results";
   bool quick = false;
+  std::string export_to;
+  std::vector<std::string> estimates;
 };
 
 /// `1..6` or `3`.
@@ -86,16 +93,7 @@ Result<paper2017::ExperimentConfig> config_of(const CLI::App& verb, const Option
     SEMVIEW_TRY(config.worlds, parse_worlds(options.worlds));
   }
   if (verb.count("--starts") > 0) {
-    config.starts.clear();
-    for (const std::string& start : options.starts) {
-      if (start != "local" && start != "global") {
-        return fail(Error{ErrorCode::kInvalidArgument,
-                          fmt::format("--starts {}: expected local or global", start),
-                          "--starts"});
-      }
-      config.starts.push_back(start == "local" ? paper2017::Start::kLocal
-                                               : paper2017::Start::kGlobal);
-    }
+    SEMVIEW_TRY(config.starts, parse_starts(options.starts));
   }
   return config;
 }
@@ -122,12 +120,52 @@ std::string command_of(const paper2017::ExperimentConfig& config) {
   return command;
 }
 
+Status write_worlds(const paper2017::ExperimentConfig& config, const std::string& directory) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  SEMVIEW_TRY_STATUS(
+      paper2017::export_worlds(config, directory, [terminal](std::size_t done, std::size_t all) {
+        if (terminal) fmt::print(stderr, "\r\033[K[{}/{}]{}", done, all, done < all ? "" : "\n");
+      }));
+  fmt::print(
+      "{0}/input: maps and run logs, listed in list.csv\n"
+      "{0}/truth: where the robot was\n"
+      "Trajectories come back with --estimates NAME=DIR, under the names in column estimate.\n",
+      directory);
+  return {};
+}
+
+/// All that was given, read before hours go into the methods of ours.
+Result<std::vector<paper2017::ForeignMethod>> read_foreign(
+    const Options& options, const paper2017::ExperimentConfig& config) {
+  SEMVIEW_TRY(const std::vector<NamedFolder> folders, parse_estimates(options.estimates));
+  std::vector<paper2017::ForeignMethod> methods;
+  for (const NamedFolder& folder : folders) {
+    SEMVIEW_TRY(paper2017::ForeignMethod method,
+                paper2017::read_estimates({folder.name, folder.directory}, config));
+    methods.push_back(std::move(method));
+  }
+  return methods;
+}
+
+/// `estimates.csv`, beside `runs.csv` and with its columns.
+Status write_foreign(const paper2017::Experiment& experiment, std::size_t first_foreign) {
+  std::string text = paper2017::csv_header();
+  for (std::size_t i = first_foreign; i < experiment.trials.size(); ++i) {
+    text += paper2017::to_csv(experiment.trials[i]);
+  }
+  return io::write_text_file(experiment.config.out / "estimates.csv", text);
+}
+
 Status run(const CLI::App& verb, const Options& options) {
   SEMVIEW_TRY(const paper2017::ExperimentConfig config, config_of(verb, options));
+  if (!options.export_to.empty()) return write_worlds(config, options.export_to);
+  SEMVIEW_TRY(const std::vector<paper2017::ForeignMethod> foreign, read_foreign(options, config));
   const TimePoint began = steady_clock().now();
-  SEMVIEW_TRY(const paper2017::Experiment experiment,
-              paper2017::run_experiment(config, show_progress));
+  SEMVIEW_TRY(paper2017::Experiment experiment, paper2017::run_experiment(config, show_progress));
   const std::chrono::duration<double> taken = steady_clock().now() - began;
+  const std::size_t ours = experiment.trials.size();
+  for (const paper2017::ForeignMethod& method : foreign) paper2017::add_drives(method, experiment);
+  if (!foreign.empty()) SEMVIEW_TRY_STATUS(write_foreign(experiment, ours));
   const paper2017::Results results(experiment);
   paper2017::ReportHeader header;
   header.command = command_of(config);
@@ -169,14 +207,22 @@ void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
                    "identity,weighted,ours")
       ->type_name("METHOD,...")
       ->delimiter(',');
-  verb->add_option("--starts", options->starts, "Known start, unknown start or both")
-      ->type_name("local,global")
-      ->delimiter(',');
+  add_starts_option(*verb, options->starts);
   add_engine_option(*verb, options->experiment.engine);
   verb->add_flag("--resume", options->experiment.resume, "Keep what is finished in --out");
   verb->add_option("--out", options->out, "Folder of the results")->capture_default_str();
   verb->add_flag(
       "--quick", options->quick, "Four rows, 3 worlds, 3 runs, known start, in about two minutes");
+  auto* estimates = add_estimates_option(*verb,
+                                         options->estimates,
+                                         "Add the trajectories of another program as a column: "
+                                         "DIR/ROW/world_W.tum, as list.csv of --export names them");
+  verb->add_option("--export",
+                   options->export_to,
+                   "Run nothing: write the rows and worlds as map bundles and run logs, and apart "
+                   "from them where the robot was")
+      ->type_name("DIR")
+      ->excludes(estimates);
   verb->footer("Example: semview evaluate paper2017 --quick --out quick");
   verb->callback([verb, options, &exit_code] { exit_code = report(run(*verb, *options)); });
 }

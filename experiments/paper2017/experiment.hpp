@@ -54,8 +54,9 @@ struct Experiment {
   ExperimentConfig config;
   WorldUse use = WorldUse::kTest;
   std::vector<Row> rows;
-  std::vector<World> worlds;        ///< as `config.worlds`
-  std::vector<TrialRecord> trials;  ///< by rows, then worlds
+  std::vector<World> worlds;          ///< as `config.worlds`
+  std::string means_over = "worlds";  ///< what tables call them
+  std::vector<TrialRecord> trials;    ///< by rows, then worlds
 };
 
 /// Leaves in `config.out`: a file a row and world in `units/` (written when it is finished, with a

@@ -59,6 +59,8 @@ std::string report(const Results& results, const ReportHeader& header) {
   }
   for (const Start start : results.experiment().config.starts) {
     section(fmt::format("Spread, {} localization", name(start)), spread_table(results, start));
+    section(fmt::format("Mean error in m at each image, {} localization", name(start)),
+            image_table(results, start));
     section(fmt::format("The map's distortion after the last image, {} localization", name(start)),
             distortion_table(results, start));
     section(fmt::format("One idea off at a time, {} localization", name(start)),

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
+
+#include "summary.hpp"
 
 namespace semview::paper2017 {
 namespace {
@@ -60,7 +63,9 @@ Against against_baseline(const std::vector<double>& method, const std::vector<do
           evaluation::mean(baseline) / evaluation::mean(method)};
 }
 
+/// Empty where nothing was asked of a row.
 std::string goal_text(const Row& row, double ratio, double mean_m) {
+  if (row.goal.ratio <= 0.0) return "";
   return fmt::format("{} ≥ {:g}, {} ≤ {:.2f} m",
                      ratio >= row.goal.ratio ? "reached" : "**missed**",
                      row.goal.ratio,
@@ -103,30 +108,18 @@ std::string localized_line(const Results& results,
                            const Row& row,
                            const std::string& method,
                            Start start) {
-  std::vector<double> from;
-  std::size_t drives = 0;
-  std::size_t by_three = 0;
-  for (const std::uint64_t world : results.experiment().config.worlds) {
-    for (const TrialRecord* drive : results.drives(row.id, method, start, world)) {
-      ++drives;
-      const auto image = localized_from(*drive, kLocalizedWithin_m);
-      if (!image) continue;
-      from.push_back(*image);
-      if (*image <= 3) ++by_three;
-    }
-  }
-  if (drives == 0) return "";
-  const auto share = [&](std::size_t count) {
-    return 100.0 * static_cast<double>(count) / static_cast<double>(drives);
-  };
+  const std::optional<Summary> summary = summary_of(results, row.id, method, start);
+  if (!summary) return "";
   return fmt::format("| {} | {} | {} | {} | {:.0f} % | {:.0f} % |\n",
                      row.id,
                      name(start),
                      method,
-                     from.empty() ? "" : fmt::format("{:g}", evaluation::median(from)),
-                     share(by_three),
-                     share(drives - from.size()));
+                     summary->localized_from ? fmt::format("{:g}", *summary->localized_from) : "",
+                     100.0 * summary->localized_by_three,
+                     100.0 * summary->never_localized);
 }
+
+bool is_printed(const Row& row) { return row.printed.odometry_m > 0.0; }
 
 }  // namespace
 
@@ -140,7 +133,9 @@ std::string fig3_table(const Results& results, Start start) {
   }
   table += " odometry |";
   rule += "---|";
-  if (start == Start::kLocal) {
+  const bool printed =
+      start == Start::kLocal && std::ranges::any_of(results.experiment().rows, is_printed);
+  if (printed) {
     table += " printed: identity | printed: weighted | printed: odometry |";
     rule += "---|---|---|";
   }
@@ -151,7 +146,7 @@ std::string fig3_table(const Results& results, Start start) {
       table += fmt::format(" {} |", best_and_min(results, row.id, method, start));
     }
     table += fmt::format(" {} |", odometry_of(results, row.id, start));
-    if (start == Start::kLocal) {
+    if (printed) {
       table += fmt::format(" {:.3f} ({:.3f}) | {:.3f} ({:.3f}) | {:.3f} |",
                            row.printed.identity_best_m,
                            row.printed.identity_min_m,
@@ -165,9 +160,10 @@ std::string fig3_table(const Results& results, Start start) {
 }
 
 std::string spread_table(const Results& results, Start start) {
-  std::string table =
-      "| row | method | mean | median over worlds | 95 % over worlds | > 0.3 m | > 1 m | weighted "
-      "less this | ratio | goal |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  std::string table = fmt::format(
+      "| row | method | mean | median over {0} | 95 % over {0} | > 0.3 m | > 1 m | weighted less "
+      "this | ratio | goal |\n|---|---|---|---|---|---|---|---|---|---|\n",
+      results.experiment().means_over);
   for (const Row& row : results.experiment().rows) {
     for (const std::string& method : compared_methods(results, start)) {
       table += spread_line(results, row, method, start);
@@ -187,6 +183,40 @@ std::string localized_table(const Results& results) {
     }
   }
   return table;
+}
+
+std::string image_table(const Results& results, Start start) {
+  int images = 0;
+  for (const TrialRecord& trial : results.experiment().trials) {
+    if (trial.start == start) images = std::max(images, static_cast<int>(trial.stops.size()));
+  }
+  std::string table = "| row | method |";
+  std::string rule = "|---|---|";
+  for (int image = 1; image <= images; ++image) {
+    table += fmt::format(" {} |", image);
+    rule += "---|";
+  }
+  table += "\n" + rule + "\n";
+  const auto line = [&](const Row& row, const std::string& method, Field field, const char* name) {
+    table += fmt::format("| {} | {} |", row.id, name);
+    for (int image = 1; image <= images; ++image) {
+      const double error_m =
+          evaluation::mean(results.values_at(row.id, method, start, field, image));
+      table += std::isnan(error_m) ? " |" : fmt::format(" {:.3f} |", error_m);
+    }
+    table += "\n";
+  };
+  for (const Row& row : results.experiment().rows) {
+    std::string last;
+    for (const std::string& method : compared_methods(results, start)) {
+      if (results.values(row.id, method, start, &StopRecord::estimate_m).empty()) continue;
+      line(row, method, &StopRecord::estimate_m, method.c_str());
+      last = method;
+    }
+    // Odometry is the same for all methods.
+    if (!last.empty()) line(row, last, &StopRecord::odometry_m, "odometry");
+  }
+  return images > 0 ? table : "";
 }
 
 std::string distortion_table(const Results& results, Start start) {

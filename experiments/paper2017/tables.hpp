@@ -19,6 +19,9 @@ std::string spread_table(const Results& results, Start start);
 /// From which image on the error stays below half a metre.
 std::string localized_table(const Results& results);
 
+/// The mean error at each image, over worlds and runs; empty if nothing was run with that start.
+std::string image_table(const Results& results, Start start);
+
 /// What ours has found of the map's distortion after the last stop.
 std::string distortion_table(const Results& results, Start start);
 

@@ -46,7 +46,8 @@ Result<std::vector<StampedPose2>> read_tum(const std::filesystem::path& path) {
                   fmt::format("{}:{}: {}", path.string(), line_number, what));
     };
     std::array<double, 8> n{};
-    if (!parse_line(line, n)) return wrong("expected eight numbers: stamp tx ty tz qx qy qz qw");
+    if (!parse_line(line, n))
+      return wrong("expected eight finite numbers: stamp tx ty tz qx qy qz qw");
     const double length = std::sqrt(n[4] * n[4] + n[5] * n[5] + n[6] * n[6] + n[7] * n[7]);
     if (!(std::abs(length - 1.0) <= 0.01)) {
       return wrong(fmt::format("quaternion of length {:g}, expected 1", length));

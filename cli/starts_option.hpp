@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/// `--starts local,global`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/paper2017/methods.hpp"
+#include "semview/core/result.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace semview::cli {
+
+void add_starts_option(CLI::App& verb, std::vector<std::string>& starts);
+
+/// @errors kInvalidArgument, with the option as the field.
+Result<std::vector<paper2017::Start>> parse_starts(const std::vector<std::string>& starts);
+
+}  // namespace semview::cli
