@@ -280,6 +280,7 @@ void add_evaluate_verb(CLI::App& app, int& exit_code) {
       "Example: semview evaluate run --log run1 run1/est.tum --map maps/duplex_level1 "
       "--svg run1.svg");
   verb->callback([options, &exit_code] { exit_code = report(run(*options)); });
+  add_evaluate_logs_verb(*evaluate_verb, exit_code);
   add_evaluate_lost_verb(*evaluate_verb, exit_code);
   add_evaluate_paper2017_verb(*evaluate_verb, exit_code);
   add_evaluate_images(*evaluate_verb, exit_code);

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+/// `semview evaluate logs`.
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "estimates_option.hpp"
+#include "evaluate_verbs.hpp"
+#include "experiments/paper2017/report.hpp"
+#include "experiments/paper2017/revision.hpp"
+#include "experiments/paper2017/summary.hpp"
+#include "experiments/paper2017/tables.hpp"
+#include "map_weights.hpp"
+#include "recordings.hpp"
+#include "semview/core/clock.hpp"
+#include "semview/core/log.hpp"
+#include "semview/core/thread_pool.hpp"
+#include "semview/io/output_path.hpp"
+#include "semview/io/text_file.hpp"
+#include "semview/map/semantic_map.hpp"
+#include "semview/service/shipped_weights.hpp"
+#include "site_options.hpp"
+#include "starts_option.hpp"
+#include "verb.hpp"
+#include "weights_option.hpp"
+
+namespace semview::cli {
+namespace {
+
+using nlohmann::ordered_json;
+using paper2017::Experiment;
+using paper2017::Start;
+
+struct Options {
+  std::string map;
+  std::vector<std::string> logs;
+  SiteOptions site;
+  std::string weights;
+  std::string learned;
+  std::string segment;
+  paper2017::RecordingsConfig config;
+  std::vector<std::string> starts;
+  std::vector<std::string> estimates;
+  std::string out;
+  bool json = false;
+};
+
+Result<paper2017::RecordingWeights> weights_of(const Options& options,
+                                               const ClassTable& observed,
+                                               const map::SemanticMap& map) {
+  SEMVIEW_TRY(const std::string shipped, service::shipped_weights_csv(map.directory));
+  SEMVIEW_TRY(ChosenWeights hand,
+              choose_weights(options.weights, options.map, shipped, observed, map.classes));
+  std::optional<similarity::WeightMatrix> learned;
+  if (!options.learned.empty()) {
+    SEMVIEW_TRY(learned, read_weights(options.learned, observed, map.classes));
+    Status fits = learned->check(observed, map.classes);
+    if (!fits) return with_context(std::move(fits), options.learned);
+  }
+  return paper2017::RecordingWeights{
+      paper2017::identity_of(hand.matrix), std::move(hand.matrix), std::move(learned)};
+}
+
+void show_progress(std::size_t done, std::size_t drives) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  fmt::print(stderr, "\r\033[K[{}/{}]{}", done, drives, done < drives ? "" : "\n");
+}
+
+Result<Experiment> evaluate(const Options& options, const paper2017::RecordingsConfig& config) {
+  SiteOptions site_options = options.site;
+  site_options.map = options.map;
+  SEMVIEW_TRY(const std::shared_ptr<service::Site> site, open_site(site_options));
+  SEMVIEW_TRY(const ReadRecordings read, read_recordings(options.logs, options.segment, *site));
+  for (const std::string& note : read.notes) log_warning(note);
+  // Foreign files first: a slip in them shall not cost a run.
+  SEMVIEW_TRY(const std::vector<NamedFolder> folders, parse_estimates(options.estimates));
+  std::vector<paper2017::TrialRecord> foreign;
+  for (const NamedFolder& folder : folders) {
+    SEMVIEW_TRY(const std::vector<paper2017::TrialRecord> trials,
+                paper2017::read_recording_estimates(
+                    {folder.name, folder.directory}, read.recordings, config.starts.front()));
+    foreign.insert(foreign.end(), trials.begin(), trials.end());
+  }
+  SEMVIEW_TRY(const paper2017::RecordingWeights weights,
+              weights_of(options, read.observed, site->map()));
+  SEMVIEW_TRY(Experiment experiment,
+              paper2017::run_recordings(
+                  config, read.recordings, weights, site->views(), site->pool(), show_progress));
+  paper2017::add_trials(foreign, experiment);
+  return experiment;
+}
+
+ordered_json number(double value) {
+  return std::isnan(value) ? ordered_json() : ordered_json(value);
+}
+
+ordered_json as_json(const paper2017::Summary& summary) {
+  return {{"drives", summary.drives},
+          {"best_m", number(summary.best_m)},
+          {"estimate_m", number(summary.estimate_m)},
+          {"weighted_mean_m", number(summary.weighted_mean_m)},
+          {"particles_m", number(summary.mean_m)},
+          {"min_m", number(summary.min_m)},
+          {"odometry_m", number(summary.odometry_m)},
+          {"above_0.3_m", summary.above_0_3_m},
+          {"above_1_m", summary.above_1_m},
+          {"localized_from_image",
+           summary.localized_from ? ordered_json(*summary.localized_from) : ordered_json()},
+          {"localized_by_image_3", summary.localized_by_three},
+          {"never_localized", summary.never_localized}};
+}
+
+void print_json(const Options& options, const paper2017::Results& results) {
+  ordered_json rows = ordered_json::array();
+  for (const paper2017::Row& row : results.experiment().rows) {
+    for (const Start start : results.experiment().config.starts) {
+      for (const std::string& method : results.methods(start)) {
+        const auto summary = paper2017::summary_of(results, row.id, method, start);
+        if (!summary) continue;
+        ordered_json line{{"log", row.id}, {"start", paper2017::name(start)}, {"method", method}};
+        line.update(as_json(*summary));
+        rows.push_back(std::move(line));
+      }
+    }
+  }
+  fmt::print("{}\n", ordered_json{{"map", options.map}, {"rows", std::move(rows)}}.dump(2));
+}
+
+std::string tables(const paper2017::Results& results, bool each_image) {
+  std::string text;
+  const auto section = [&](const std::string& title, const std::string& table) {
+    if (!table.empty()) text += fmt::format("\n## {}\n\n{}", title, table);
+  };
+  for (const Start start : results.experiment().config.starts) {
+    const std::string_view how = paper2017::name(start);
+    section(fmt::format("Mean error in m, best (min), {} localization", how),
+            paper2017::fig3_table(results, start));
+    section(fmt::format("Mean errors in m, shares, images until the error stays below {:g} m, {} "
+                        "localization",
+                        paper2017::kLocalizedWithin_m,
+                        how),
+            paper2017::summary_table(results, start));
+    section(fmt::format("Spread, {} localization", how), paper2017::spread_table(results, start));
+    section(fmt::format("One idea off at a time, {} localization", how),
+            paper2017::ablation_table(results, start));
+    if (each_image) {
+      section(fmt::format("Mean error in m at each image, {} localization", how),
+              paper2017::image_table(results, start));
+    }
+  }
+  return text;
+}
+
+/// `runs.csv` of equal bytes for any number of threads, and a page with what made it.
+Status write_results(const Options& options, const paper2017::Results& results, double wall_s) {
+  const Experiment& experiment = results.experiment();
+  std::string csv = paper2017::csv_header();
+  for (const paper2017::TrialRecord& trial : experiment.trials) {
+    if (trial.row != paper2017::kAllRecordings) csv += paper2017::to_csv(trial);
+  }
+  const std::filesystem::path out = options.out;
+  SEMVIEW_TRY_STATUS(io::write_text_file(out / "runs.csv", csv));
+  std::string page = fmt::format(
+      "# {} with {} log{}\n\ncommit {}, {}, {:.0f} s; {} run{}, seed {}, weights {}, learned "
+      "weights {}\n",
+      options.map,
+      options.logs.size(),
+      options.logs.size() == 1 ? "" : "s",
+      paper2017::kRevision,
+      paper2017::cpu_name(),
+      wall_s,
+      experiment.config.runs,
+      experiment.config.runs == 1 ? "" : "s",
+      experiment.config.seed,
+      options.weights.empty() ? "of the map" : options.weights,
+      options.learned.empty() ? "none" : options.learned);
+  page += tables(results, true);
+  return io::write_text_file(out / "report.md", page);
+}
+
+Status run(const Options& options) {
+  paper2017::RecordingsConfig config = options.config;
+  if (!options.starts.empty()) {
+    SEMVIEW_TRY(config.starts, parse_starts(options.starts));
+  }
+  SEMVIEW_TRY_STATUS(paper2017::validate(config));
+  if (!options.out.empty()) SEMVIEW_TRY_STATUS(io::check_output_folder(options.out));
+  const TimePoint began = steady_clock().now();
+  SEMVIEW_TRY(const Experiment experiment, evaluate(options, config));
+  const std::chrono::duration<double> taken = steady_clock().now() - began;
+  const paper2017::Results results(experiment);
+  if (!options.out.empty()) {
+    std::error_code ignored;
+    std::filesystem::create_directories(options.out, ignored);
+    SEMVIEW_TRY_STATUS(write_results(options, results, taken.count()));
+  }
+  if (options.json) {
+    print_json(options, results);
+  } else {
+    fmt::print("{}", tables(results, false).substr(1));
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_evaluate_logs_verb(CLI::App& evaluate_verb, int& exit_code) {
+  CLI::App* verb = evaluate_verb.add_subcommand(
+      "logs",
+      "The tables of `evaluate paper2017` for anybody's recordings: run logs with ground truth, "
+      "the "
+      "methods of the 2017 paper, ours, and odometry, over several filter seeds. A known start is "
+      "the ground truth's pose at the first frame.");
+  const auto options = std::make_shared<Options>();
+  verb->add_option("--map", options->map, "Map folder, map.yaml or .glb")
+      ->type_name("MAP")
+      ->required();
+  verb->add_option("LOG", options->logs, "Folders of run logs")->required();
+  verb->add_option("--methods",
+                   options->config.methods,
+                   "Methods as of `evaluate paper2017`; odometry has a column always")
+      ->type_name("METHOD,...")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_starts_option(*verb, options->starts);
+  verb->add_option("--runs", options->config.runs, "Filter seeds a log")->capture_default_str();
+  verb->add_option("--seed", options->config.seed, "Seed of the filters")->capture_default_str();
+  add_weights_option(*verb, options->weights)
+      ->description(
+          "Weight matrix of `weighted`; `identity` is 1 where it has a class's full match "
+          "(default: "
+          "the map's own weights.csv, else equal names)");
+  verb->add_option(
+          "--learned",
+          options->learned,
+          "Likelihood ratios of `semview weights learn` for methods that learn, as `ours`; "
+          "without them they use --weights")
+      ->type_name("FILE.csv");
+  verb->add_option("--segment", options->segment, "Label the logs' images with this network")
+      ->type_name("MODEL");
+  add_estimates_option(*verb,
+                       options->estimates,
+                       "Add the trajectories of another program as a column: DIR/LOG.tum, named as "
+                       "the logs' folders are");
+  verb->add_option("--out", options->out, "Folder for runs.csv (a line a run and stop), report.md")
+      ->type_name("DIR");
+  verb->add_flag("--json", options->json, "Print JSON");
+  add_site_options(*verb, options->site, false);
+  verb->remove_option(verb->get_option("map"));  // named by --map; logs are what is listed
+  verb->footer(
+      "Example: semview evaluate logs --map maps/duplex_level1 run1 run2 --runs 5 --out compared");
+  verb->callback([options, &exit_code] { exit_code = report(run(*options)); });
+}
+
+}  // namespace semview::cli
