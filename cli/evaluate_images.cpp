@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview evaluate images`.
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,8 +14,10 @@
 
 #include "evaluate_verbs.hpp"
 #include "eye_heights.hpp"
+#include "photo_labels.hpp"
 #include "picture_set.hpp"
 #include "place_weights.hpp"
+#include "printed_places.hpp"
 #include "semview/evaluation/place_recall.hpp"
 #include "semview/map/fingerprint.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -37,6 +39,8 @@ constexpr double kCrop_rad = kPi / 2.0;
 struct Options {
   EyeHeightOptions floors;
   std::string list;
+  std::string segment;  ///< the network that labels the list's photographs
+  std::string camera;   ///< the rig that took them
   SimulatedPictures simulated;
   double missing_share = 0.0;
   std::string weights;
@@ -51,22 +55,6 @@ struct Row {
   std::string input;
   std::vector<PlaceError> errors;
 };
-
-/// What is printed in the literature, for other pictures in other buildings: no ranking, a scale.
-struct Printed {
-  const char* method;
-  const char* input;
-  const char* result;
-};
-constexpr std::array<Printed, 2> kPrinted = {{
-    {"LaLaLoc (2021)",
-     "RGB panorama; Structured3D; the storey's layout with its ceiling height",
-     "\"to within 8.3 cm\""},
-    {"SPVLoc (2024)",
-     "RGB perspective image, 6 degrees of freedom (harder); Structured3D; model with doors and "
-     "windows",
-     "33.5 / 81.6 / 84.2 % within 0.1 m / 0.5 m / 1 m and 30 deg"},
-}};
 
 /// The drawing, without some of its furniture if so wanted.
 Result<map::SemanticMap> load_drawing(const Options& options) {
@@ -197,16 +185,30 @@ void print_table(const std::vector<Row>& rows) {
       fmt::print("\n");
     }
   }
-  fmt::print("\nPrinted by others, on their own pictures and buildings:\n");
-  for (const Printed& printed : kPrinted) {
-    fmt::print("  {:<15} {}\n  {:<15} {}\n", printed.method, printed.result, "", printed.input);
+  fmt::print("{}", printed_by_others());
+}
+
+Status check(const Options& options) {
+  const auto refuse = [](const char* option, const char* message) {
+    return fail(Error{ErrorCode::kInvalidArgument, message, option});
+  };
+  if (options.list.empty() == options.simulated.world.empty()) {
+    return refuse("--list", "give the pictures with either --list or --world");
   }
+  if (!options.segment.empty() && options.list.empty()) {
+    return refuse("--segment", "--segment: labels the photographs of a --list");
+  }
+  if (!options.camera.empty() && options.segment.empty()) {
+    return refuse("--camera", "--camera: needs --segment, which labels what the rig took");
+  }
+  return {};
 }
 
 Status run(const Options& options) {
-  if (options.list.empty() == options.simulated.world.empty()) {
-    return fail(Error{
-        ErrorCode::kInvalidArgument, "give the pictures with either --list or --world", "--list"});
+  SEMVIEW_TRY_STATUS(check(options));
+  std::optional<PhotoLabeller> labeller;
+  if (!options.segment.empty()) {
+    SEMVIEW_TRY(labeller, open_photo_labeller(options.segment, options.camera));
   }
   SEMVIEW_TRY(const map::SemanticMap map, load_drawing(options));
   SEMVIEW_TRY(const Floors floors, open_floors(options.floors, map));
@@ -214,7 +216,7 @@ Status run(const Options& options) {
   SEMVIEW_TRY(const std::vector<KnownPicture> pictures,
               options.list.empty()
                   ? simulate_pictures(options.simulated, floors[0]->cells(), profile)
-                  : read_picture_list(options.list, profile));
+                  : read_picture_list(options.list, profile, labeller ? &*labeller : nullptr));
   SEMVIEW_TRY(const std::vector<Row> rows, evaluate(options, floors, pictures));
   if (options.json) {
     print_json(floors, rows);
@@ -257,8 +259,21 @@ void add_evaluate_images(CLI::App& evaluate_verb, int& exit_code) {
       "the same name or synonyms count 1, best cell and heading) and printed figures of others.");
   const auto options = std::make_shared<Options>();
   add_eye_height_options(*verb, options->floors);
-  verb->add_option("--list", options->list, "Lines of folder,x_m,y_m,yaw_deg: observation folders")
+  verb->add_option("--list",
+                   options->list,
+                   "Lines of picture,x_m,y_m,yaw_deg: observation folders, or photographs with "
+                   "--segment")
       ->type_name("FILE.csv");
+  verb->add_option(
+          "--segment",
+          options->segment,
+          "Label the list's photographs with this network, as `semview observe` does: a "
+          "shipped model's name, for example deeplab_ade20k32, or a folder with model.yaml")
+      ->type_name("MODEL");
+  verb->add_option("--camera",
+                   options->camera,
+                   "The rig that took them; default: each is one level equirectangular photograph")
+      ->type_name("RIG.yaml");
   add_simulation_options(*verb, *options);
   add_weights_option(*verb, options->weights);
   verb->add_flag("--crops", options->crops, "Also four crops of 90 degrees of each panorama");

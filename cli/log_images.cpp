@@ -2,29 +2,25 @@
 #include "log_images.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "observe_options.hpp"
-#include "semview/io/photo.hpp"
-#include "semview/segmentation/panorama_observer.hpp"
 
 namespace semview::cli {
 
 Result<std::optional<Observation>> LogImages::observe(std::size_t frame,
                                                       const PanoramaCamera& profile) const {
   const io::FrameFiles& files = log_.frames[frame];
-  std::vector<RgbImage> photos;
-  for (const std::string& file : files.images()) {
-    SEMVIEW_TRY(RgbImage photo, io::read_photo(log_.directory / file));
-    photos.push_back(std::move(photo));
-  }
+  std::vector<std::filesystem::path> photos;
+  for (const std::string& file : files.images()) photos.push_back(log_.directory / file);
   if (photos.empty()) return std::optional<Observation>();
-  Result<segmentation::ObservedPanorama> seen = segmentation::observe(*segmenter_, rig_, photos);
+  Result<Observation> seen = labeller_.observe(photos, files.stamp_s, profile);
   if (!seen) return with_context(std::move(seen), fmt::format("frame {}", frame));
-  return std::optional(seen->observation(classes(), files.stamp_s, profile));
+  return std::optional(*std::move(seen));
 }
 
 Result<std::optional<LogImages>> open_log_images(const io::RunLog& log, const std::string& model) {
@@ -52,7 +48,8 @@ Result<std::optional<LogImages>> open_log_images(const io::RunLog& log, const st
     SEMVIEW_TRY(rig, segmentation::read_camera_rig(*log.camera_rig));
   }
   SEMVIEW_TRY(std::unique_ptr<segmentation::Segmenter> segmenter, open_segmenter(model));
-  return std::optional<LogImages>(std::in_place, log, std::move(rig), std::move(segmenter));
+  return std::optional<LogImages>(
+      std::in_place, log, PhotoLabeller{std::move(rig), std::move(segmenter)});
 }
 
 }  // namespace semview::cli

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "photo_labels.hpp"
 #include "semview/core/result.hpp"
 #include "semview/io/run_log.hpp"
-#include "semview/segmentation/camera_rig.hpp"
-#include "semview/segmentation/segmenter.hpp"
 #include "semview/view/observation.hpp"
 
 namespace semview::cli {
@@ -18,12 +17,10 @@ namespace semview::cli {
 /// Labels the images of `log`, which must outlive it.
 class LogImages {
  public:
-  LogImages(const io::RunLog& log,
-            segmentation::CameraRig rig,
-            std::unique_ptr<segmentation::Segmenter> segmenter)
-      : log_(log), rig_(std::move(rig)), segmenter_(std::move(segmenter)) {}
+  LogImages(const io::RunLog& log, PhotoLabeller labeller)
+      : log_(log), labeller_(std::move(labeller)) {}
 
-  const ClassTable& classes() const { return segmenter_->classes(); }
+  const ClassTable& classes() const { return labeller_.segmenter->classes(); }
 
   /// What the cameras saw at a frame; none of a frame without an image.
   Result<std::optional<Observation>> observe(std::size_t frame,
@@ -31,8 +28,7 @@ class LogImages {
 
  private:
   const io::RunLog& log_;
-  segmentation::CameraRig rig_;
-  std::unique_ptr<segmentation::Segmenter> segmenter_;
+  PhotoLabeller labeller_;
 };
 
 /// The images of `log`, labelled by the network `model`; none if that is empty.

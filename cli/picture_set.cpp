@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "semview/core/log.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/observation_folder.hpp"
 #include "semview/io/text_file.hpp"
@@ -44,10 +45,37 @@ Observation take_picture(const raycast::Scene& scene,
   return {ClassTable(simulation::photograph_classes()), resample(seen, camera, profile), 0.0, {}};
 }
 
+/// A photograph's name, where there is no folder of that name: "a.jpg" or "left.png;right.png".
+bool names_photographs(const std::filesystem::path& folder, const std::string& name) {
+  if (std::filesystem::is_directory(folder / name)) return false;
+  std::string ending = std::filesystem::path(name).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".jpg" || ending == ".jpeg" || ending == ".png";
+}
+
+Result<Observation> read_picture(const std::filesystem::path& folder,
+                                 const std::string& name,
+                                 const PanoramaCamera& profile,
+                                 const PhotoLabeller* labeller) {
+  if (!names_photographs(folder, name)) return io::read_observation(folder / name, profile);
+  if (labeller == nullptr) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{} is a photograph; expected the folder of an observation, which "
+                            "`semview observe` makes of it, or a network to label it (--segment)",
+                            name));
+  }
+  std::vector<std::filesystem::path> files;
+  std::istringstream names(name);
+  for (std::string file; std::getline(names, file, ';');) files.push_back(folder / file);
+  log_info(fmt::format("labelling {}", name));
+  return labeller->observe(files, 0.0, profile);
+}
+
 }  // namespace
 
 Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path& path,
-                                                    const PanoramaCamera& profile) {
+                                                    const PanoramaCamera& profile,
+                                                    const PhotoLabeller* labeller) {
   SEMVIEW_TRY(const std::string text, io::read_text_file(path, kMaxListBytes));
   std::vector<KnownPicture> pictures;
   std::istringstream lines(text);
@@ -63,10 +91,10 @@ Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path&
       return fail(
           ErrorCode::kInvalidArgument,
           fmt::format(
-              "{}:{}: expected folder,x_m,y_m,yaw_deg, found '{}'", path.string(), number, line));
+              "{}:{}: expected picture,x_m,y_m,yaw_deg, found '{}'", path.string(), number, line));
     }
     const std::string name = line.substr(0, comma);
-    Result<Observation> observation = io::read_observation(path.parent_path() / name, profile);
+    Result<Observation> observation = read_picture(path.parent_path(), name, profile, labeller);
     if (!observation) {
       return with_context(std::move(observation), fmt::format("{}:{}", path.string(), number));
     }
@@ -77,7 +105,7 @@ Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path&
   if (pictures.empty()) {
     return fail(
         ErrorCode::kInvalidArgument,
-        fmt::format("{}: no pictures, expected lines of folder,x_m,y_m,yaw_deg", path.string()));
+        fmt::format("{}: no pictures, expected lines of picture,x_m,y_m,yaw_deg", path.string()));
   }
   return pictures;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "photo_labels.hpp"
 #include "semview/core/result.hpp"
 #include "semview/geometry/panorama_camera.hpp"
 #include "semview/map/cell_grid.hpp"
@@ -20,11 +21,15 @@ struct KnownPicture {
   Observation observation;
 };
 
-/// Lines `folder,x_m,y_m,yaw_deg`, the folder of an observation relative to the list's; a first
-/// line of names, empty lines and lines that start with # are skipped.
-/// @errors kNotFound, kInvalidArgument with file and line; those of `io::read_observation`.
+/// Lines `picture,x_m,y_m,yaw_deg`; a first line of names, empty lines and lines that start with #
+/// are skipped. A picture is, relative to the list's folder, the folder of an observation, or a
+/// photograph, of a rig of several cameras their photographs in its order with `;` between them.
+/// @param labeller  for photographs; null if nobody said how they are labelled
+/// @errors kNotFound, kInvalidArgument with file and line; those of `io::read_observation` and
+/// `PhotoLabeller::observe`.
 Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path& path,
-                                                    const PanoramaCamera& profile);
+                                                    const PanoramaCamera& profile,
+                                                    const PhotoLabeller* labeller);
 
 struct SimulatedPictures {
   std::string world;            ///< a map whose views are photographed, a mesh mostly

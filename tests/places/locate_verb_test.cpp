@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview locate` and `semview evaluate images` as a user runs them.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "segmentation/colour_network.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/io/observation_folder.hpp"
 #include "semview/io/png.hpp"
@@ -81,12 +83,52 @@ TEST_F(LocateVerbTest, CountsHowOftenAListedPictureIsFound) {
   EXPECT_LT(answer["rows"][0]["median_m"].get<double>(), 0.05);
 }
 
+TEST_F(LocateVerbTest, AListedPhotographIsLabelledAsObserveLabelsIt) {
+  const auto site = service::Site::open(map_, service::SiteConfig{}).value();
+  raycast::PanoramaRequest request;
+  request.map_from_robot = truth_;
+  request.eye_z_m = site->eye_z_m(1.2);
+  request.camera = {360, 180, -kPi / 2.0, kPi / 2.0};
+  const LabelImage labels = site->exact_panorama(request).value().labels;
+  RgbImage photo(labels.rows(), labels.columns(), Rgb{});
+  for (int r = 0; r < labels.rows(); ++r) {
+    for (int c = 0; c < labels.columns(); ++c) {
+      photo.at(r, c) = segmentation::testing::colour_of_channel(std::max(1, +labels.at(r, c)) - 1);
+    }
+  }
+  ASSERT_TRUE(io::write_png(file("room.png"), photo));
+  const auto names = site->map().classes.names();
+  const std::string model =
+      segmentation::testing::write_colour_network(folder_, {names.begin(), names.end()}, 64, 200.0)
+          .string();
+  ASSERT_EQ(testing::run_semview("observe " + file("room.png") + " --equirectangular --model " +
+                                 model + " -o " + file("seen"))
+                .exit_code,
+            0);
+  std::ofstream(file("photos.csv")) << "room.png,0.93,0.87,-52.4\n";
+  std::ofstream(file("folders.csv")) << "seen,0.93,0.87,-52.4\n";
+  const auto evaluated = [&](const std::string& options) {
+    const auto run = testing::run_semview("evaluate images " + map_.string() + options +
+                                          " --eye-height 1.2 --rows 150 --elevation -75,75 --json");
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    return json::parse(run.output.substr(std::min(run.output.find('{'), run.output.size())));
+  };
+  const json photos = evaluated(" --list " + file("photos.csv") + " --segment " + model);
+  EXPECT_EQ(photos, evaluated(" --list " + file("folders.csv")));
+  EXPECT_EQ(photos["rows"][0]["pictures"], 1);
+
+  const auto unlabelled =
+      testing::run_semview("evaluate images " + map_.string() + " --list " + file("photos.csv"));
+  EXPECT_EQ(unlabelled.exit_code, 1);
+  EXPECT_THAT(unlabelled.output, HasSubstr("photos.csv:1: room.png is a photograph; expected"));
+}
+
 TEST_F(LocateVerbTest, NamesTheLineOfAListThatIsNone) {
   std::ofstream(file("poses.csv")) << "folder,x_m,y_m,yaw_deg\nobs,0.93,here\n";
   const auto run = testing::run_semview("evaluate images " + map_.string() + " --list " +
                                         file("poses.csv") + " --eye-height 1.2");
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.output, HasSubstr("poses.csv:2: expected folder,x_m,y_m,yaw_deg"));
+  EXPECT_THAT(run.output, HasSubstr("poses.csv:2: expected picture,x_m,y_m,yaw_deg"));
   const auto neither = testing::run_semview("evaluate images " + map_.string());
   EXPECT_EQ(neither.exit_code, 2) << neither.output;
 }
