@@ -160,6 +160,20 @@ std::string tables(const paper2017::Results& results, bool each_image) {
   return text;
 }
 
+/// What the tables hang on, in a line.
+std::string settings_of(const Options& options, const Experiment& experiment) {
+  return fmt::format(
+      "{} on {}: {} run{} each, seed {}; weights {}, likelihood ratios {}; commit {}.\n",
+      fmt::join(options.logs, " "),
+      options.map,
+      experiment.config.runs,
+      experiment.config.runs == 1 ? "" : "s",
+      experiment.config.seed,
+      options.weights.empty() ? "of the map" : options.weights,
+      options.learned.empty() ? "none (methods that learn take the weights)" : options.learned,
+      paper2017::kRevision);
+}
+
 /// `runs.csv` of equal bytes for any number of threads, and a page with what made it.
 Status write_results(const Options& options, const paper2017::Results& results, double wall_s) {
   const Experiment& experiment = results.experiment();
@@ -169,20 +183,11 @@ Status write_results(const Options& options, const paper2017::Results& results, 
   }
   const std::filesystem::path out = options.out;
   SEMVIEW_TRY_STATUS(io::write_text_file(out / "runs.csv", csv));
-  std::string page = fmt::format(
-      "# {} with {} log{}\n\ncommit {}, {}, {:.0f} s; {} run{}, seed {}, weights {}, learned "
-      "weights {}\n",
-      options.map,
-      options.logs.size(),
-      options.logs.size() == 1 ? "" : "s",
-      paper2017::kRevision,
-      paper2017::cpu_name(),
-      wall_s,
-      experiment.config.runs,
-      experiment.config.runs == 1 ? "" : "s",
-      experiment.config.seed,
-      options.weights.empty() ? "of the map" : options.weights,
-      options.learned.empty() ? "none" : options.learned);
+  std::string page = fmt::format("# {}\n\n{}{}, {:.0f} s.\n",
+                                 options.map,
+                                 settings_of(options, experiment),
+                                 paper2017::cpu_name(),
+                                 wall_s);
   page += tables(results, true);
   return io::write_text_file(out / "report.md", page);
 }
@@ -206,7 +211,7 @@ Status run(const Options& options) {
   if (options.json) {
     print_json(options, results);
   } else {
-    fmt::print("{}", tables(results, false).substr(1));
+    fmt::print("{}{}", settings_of(options, experiment), tables(results, false));
   }
   return {};
 }
@@ -230,8 +235,9 @@ void add_evaluate_logs_verb(CLI::App& evaluate_verb, int& exit_code) {
                    "Methods as of `evaluate paper2017`; odometry has a column always")
       ->type_name("METHOD,...")
       ->delimiter(',')
+      ->allow_extra_args(false)  // what follows are logs
       ->capture_default_str();
-  add_starts_option(*verb, options->starts);
+  add_starts_option(*verb, options->starts, "local");
   verb->add_option("--runs", options->config.runs, "Filter seeds a log")->capture_default_str();
   verb->add_option("--seed", options->config.seed, "Seed of the filters")->capture_default_str();
   add_weights_option(*verb, options->weights)

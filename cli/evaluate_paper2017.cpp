@@ -207,7 +207,7 @@ void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
                    "identity,weighted,ours")
       ->type_name("METHOD,...")
       ->delimiter(',');
-  add_starts_option(*verb, options->starts);
+  add_starts_option(*verb, options->starts, "both");
   add_engine_option(*verb, options->experiment.engine);
   verb->add_flag("--resume", options->experiment.resume, "Keep what is finished in --out");
   verb->add_option("--out", options->out, "Folder of the results")->capture_default_str();

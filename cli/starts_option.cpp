@@ -6,10 +6,14 @@
 
 namespace semview::cli {
 
-void add_starts_option(CLI::App& verb, std::vector<std::string>& starts) {
-  verb.add_option("--starts", starts, "Known start, unknown start or both")
+void add_starts_option(CLI::App& verb,
+                       std::vector<std::string>& starts,
+                       const std::string& unless_given) {
+  verb.add_option(
+          "--starts", starts, "Known start, unknown start or both; default: " + unless_given)
       ->type_name("local,global")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
 }
 
 Result<std::vector<paper2017::Start>> parse_starts(const std::vector<std::string>& starts) {

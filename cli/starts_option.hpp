@@ -14,7 +14,10 @@ class App;
 
 namespace semview::cli {
 
-void add_starts_option(CLI::App& verb, std::vector<std::string>& starts);
+/// @param unless_given  which they are if nobody says, for the help
+void add_starts_option(CLI::App& verb,
+                       std::vector<std::string>& starts,
+                       const std::string& unless_given);
 
 /// @errors kInvalidArgument, with the option as the field.
 Result<std::vector<paper2017::Start>> parse_starts(const std::vector<std::string>& starts);

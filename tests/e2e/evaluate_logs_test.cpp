@@ -106,6 +106,14 @@ TEST_F(EvaluateLogsTest, PrintsTablesOfEachLogAndOfAll) {
   EXPECT_THAT(outcome.output, HasSubstr("median over logs"));
 }
 
+TEST_F(EvaluateLogsTest, LogsMayStandBehindLists) {
+  const Outcome outcome =
+      run_semview("evaluate logs --columns 120 --rows 30 --runs 1 --map " + kMap +
+                  " --starts local --methods weighted " + file("drive1"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("| row | weighted | odometry |\n"));
+}
+
 TEST_F(EvaluateLogsTest, WhatCannotBeComparedIsRefusedInALine) {
   const Outcome twice =
       run_semview("evaluate logs --map " + kMap + " " + file("drive1") + " " + file("drive1"));
