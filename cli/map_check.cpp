@@ -28,6 +28,7 @@ nlohmann::json to_json(const map::MapProblem& problem) {
                       {"remedy", problem.remedy}};
   if (problem.line > 0) json["line"] = problem.line;
   if (problem.pixel) json["pixel"] = {{"x", problem.pixel->column}, {"y", problem.pixel->row}};
+  if (problem.feature) json["feature"] = problem.feature->number;
   return json;
 }
 

@@ -73,6 +73,8 @@ ordered_json info_json(const map::SemanticMap& map,
     info["pixels"] = {columns->columns(), columns->rows()};
     info["resolution_m"] = columns->resolution_m;
     info["origin"] = {columns->origin.x_m, columns->origin.y_m, columns->origin.yaw_rad};
+    info["objects"] = map.objects.features;
+    info["object_profiles"] = map.objects.profiles.size();
   } else if (const map::MeshGeometry* mesh = map.mesh()) {
     info["vertices"] = mesh->mesh.vertices.size();
     info["triangles"] = mesh->mesh.triangles.size();
@@ -121,6 +123,12 @@ void print_text(const map::SemanticMap& map,
                      columns->origin.x_m,
                      columns->origin.y_m,
                      deg_from_rad(columns->origin.yaw_rad)));
+    if (map.objects.features > 0) {
+      line("objects",
+           fmt::format("{}, in {} profiles of their own",
+                       map.objects.features,
+                       map.objects.profiles.size()));
+    }
   } else {
     const map::TriangleMesh& mesh = map.mesh()->mesh;
     line("mesh",

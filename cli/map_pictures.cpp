@@ -37,7 +37,9 @@ Result<picture::ClassPlanPicture> picture_of(const map::SemanticMap& map) {
   const map::ColumnMap& columns = *map.columns();
   drawing.plan = {plan_image(map, columns), columns.resolution_m, columns.origin};
   for (const map::MapClass& details : map.class_details) {
-    if (details.color) drawing.classes.push_back({*details.color, details.name});
+    if (!details.color) continue;
+    drawing.classes.push_back({*details.color, details.name});
+    drawing.classes.push_back({map::object_color(*details.color), details.name + ", as an object"});
   }
   return drawing;
 }
@@ -85,7 +87,8 @@ void add_common(CLI::App& verb, Options& options) {
 void add_map_pictures(CLI::App& map, int& exit_code) {
   CLI::App* preview_verb = map.add_subcommand(
       "preview",
-      "Draw a plan in its classes' colours as semview reads it, outside in white, with a legend, "
+      "Draw a plan in its classes' colours as semview reads it, outside in white, objects with "
+      "heights of their own in another shade, with a legend, "
       "metres along the edges and a scale bar. Of a mesh: the free cells.");
   const auto preview_options = std::make_shared<Options>();
   add_common(*preview_verb, *preview_options);

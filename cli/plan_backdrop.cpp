@@ -40,7 +40,10 @@ Result<picture::Plan> plan_backdrop(const map::SemanticMap& map) {
   std::map<Rgb, Rgb> quiet;
   for (std::size_t i = 0; i < map.class_details.size(); ++i) {
     const std::optional<Rgb>& drawn = map.class_details[i].color;
-    if (drawn) quiet.emplace(*drawn, palette[static_cast<ClassId>(i + 1)]);
+    if (!drawn) continue;
+    const Rgb shown = palette[static_cast<ClassId>(i + 1)];
+    quiet.emplace(*drawn, shown);
+    quiet.emplace(map::object_color(*drawn), map::object_color(shown));
   }
   RgbImage image = map::plan_image(map, *columns);
   for (Rgb& pixel : image.pixels()) {

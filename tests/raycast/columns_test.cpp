@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The columns caster against Embree on the extruded plan.
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "raycast/column_comparison.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -19,32 +25,89 @@ TEST(ColumnsTest, AnyPlanLooksAsEmbreeSeesIt) {
   EXPECT_GT(comparison.pixels, 2'000'000);
 }
 
+/// Casts `count` views from places like cells' centres by both.
+void compare_on_cells(const map::ColumnMap& plan,
+                      Rng& rng,
+                      int count,
+                      ColumnComparison& comparison) {
+  const map::TriangleMesh mesh = map::extrude(plan);
+  const Scene scene = std::move(*Scene::build(mesh, {true}));
+  const ColumnScene columns = ColumnScene::build(plan);
+  const map::Bounds bounds = plan.bounds();
+  for (int views = 0; views < count;) {
+    // As cells are: centres of 10 cm, on pixel edges of some plans.
+    const double x = std::round(rng.uniform(bounds.min_x_m, bounds.max_x_m) * 10) / 10 + 0.05;
+    const double y = std::round(rng.uniform(bounds.min_y_m, bounds.max_y_m) * 10) / 10 + 0.05;
+    const ColumnProfile* profile = plan.at(x, y);
+    const double eye = plan.ground_height_m + 1.2;
+    if (profile == nullptr || profile->outside || profile->reaches_into(eye - 0.1, eye + 0.1)) {
+      continue;
+    }
+    compare_casters(mesh, scene, columns, {{x, y, 0.0}, eye, {}, {}}, comparison);
+    ++views;
+  }
+}
+
 TEST(ColumnsTest, ShippedPlansLookAsEmbreeSeesThem) {
   ColumnComparison comparison;
   for (const char* name : {"duplex_level1", "duplex_level2", "largebuilding_level1", "tutorial"}) {
     const auto map = map::load_map(std::string(SEMVIEW_SOURCE_DIR "/maps/") + name);
     ASSERT_TRUE(map);
-    const map::ColumnMap& plan = *map->columns();
-    const map::TriangleMesh mesh = map::extrude(plan);
-    const Scene scene = std::move(*Scene::build(mesh, {true}));
-    const ColumnScene columns = ColumnScene::build(plan);
     Rng rng(1, name);
-    const map::Bounds bounds = plan.bounds();
-    for (int views = 0; views < 15;) {
-      // As cells are: centres of 10 cm, on pixel edges of some plans.
-      const double x = std::round(rng.uniform(bounds.min_x_m, bounds.max_x_m) * 10) / 10 + 0.05;
-      const double y = std::round(rng.uniform(bounds.min_y_m, bounds.max_y_m) * 10) / 10 + 0.05;
-      const ColumnProfile* profile = plan.at(x, y);
-      const double eye = plan.ground_height_m + 1.2;
-      if (profile == nullptr || profile->outside || profile->reaches_into(eye - 0.1, eye + 0.1)) {
-        continue;
-      }
-      compare_casters(mesh, scene, columns, {{x, y, 0.0}, eye, {}, {}}, comparison);
-      ++views;
-    }
+    compare_on_cells(*map->columns(), rng, 15, comparison);
   }
   EXPECT_EQ(comparison.wrong, 0) << comparison;
   EXPECT_LE(comparison.ties, comparison.pixels / 1'000'000) << comparison;
+  EXPECT_LE(comparison.worst_range_m, 1e-3);
+}
+
+/// Triangles of several classes with any heights, and all sills of the house higher.
+std::string any_objects(Rng& rng) {
+  std::string features =
+      R"({"type": "Feature", "properties": {"class": "windowpane", "min_height": 1.3, "over": "windowpane"},
+          "geometry": {"type": "Polygon", "coordinates": [[[-1, -1], [4, -1], [4, 9], [-1, 9], [-1, -1]]]}})";
+  for (const char* name : {"cabinet", "table", "wall", "windowpane", "bookcase", "door", "rug"}) {
+    for (int i = 0; i < 3; ++i) {
+      const double x = rng.uniform(0.5, 7.0);
+      const double y = rng.uniform(0.5, 5.0);
+      const double low = rng.uniform(0.0, 1.0);
+      features += fmt::format(
+          R"(, {{"type": "Feature", "properties": {{"class": "{}", "min_height": {}, "max_height": {}}},
+             "geometry": {{"type": "Polygon", "coordinates": [[[{}, {}], [{}, {}], [{}, {}], [{}, {}]]]}}}})",
+          name,
+          low,
+          low + rng.uniform(0.05, 1.4),
+          x,
+          y,
+          x + rng.uniform(0.1, 0.9),
+          y,
+          x,
+          y + rng.uniform(0.1, 0.9),
+          x,
+          y);
+    }
+  }
+  return fmt::format(R"({{"type": "FeatureCollection", "features": [{}]}})", features);
+}
+
+TEST(ColumnsTest, PlansWithObjectsLookAsEmbreeSeesThem) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("semview_objects_{}", ::getpid());
+  std::filesystem::copy(SEMVIEW_SOURCE_DIR "/maps/tutorial", folder);
+  Rng rng(1, "objects");
+  std::ofstream(folder / "objects.geojson") << any_objects(rng);
+  std::ifstream drawn(SEMVIEW_SOURCE_DIR "/maps/tutorial/map.yaml");
+  std::string yaml{std::istreambuf_iterator<char>(drawn), {}};
+  yaml.replace(yaml.find("  ground:"), 0, "  objects: objects.geojson\n");
+  std::ofstream(folder / "map.yaml") << yaml;
+  const auto map = map::load_map(folder);
+  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_GT(map->objects.profiles.size(), 15U);
+  ColumnComparison comparison;
+  compare_on_cells(*map->columns(), rng, 30, comparison);
+  EXPECT_EQ(comparison.wrong, 0) << comparison;
+  EXPECT_LE(comparison.ties, 1 + comparison.pixels / 1'000'000) << comparison;
   EXPECT_LE(comparison.worst_range_m, 1e-3);
 }
 

@@ -86,6 +86,7 @@ std::string map_yaml(const BundleText& text) {
   yaml += "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\nsemview:\n  format: 1\n";
   if (!text.id.empty()) yaml += fmt::format("  id: {}\n", quoted(text.id));
   yaml += fmt::format("  name: {}\n  labels: labels.png\n", quoted(text.name));
+  if (!text.objects.empty()) yaml += "  objects: objects.geojson\n";
   if (!text.ceiling_class.empty()) {
     yaml += fmt::format("  ceiling: {{class: {}, height: {}}}\n",
                         quoted(text.ceiling_class),
@@ -115,6 +116,9 @@ Status write_bundle(const BundleText& text,
   BundleText named = text;
   named.id = id_for(std::filesystem::absolute(directory / "").parent_path().filename().string());
   SEMVIEW_TRY_STATUS(io::write_png(directory / "labels.png", labels));
+  if (!named.objects.empty()) {
+    SEMVIEW_TRY_STATUS(io::write_text_file(directory / "objects.geojson", named.objects));
+  }
   SEMVIEW_TRY_STATUS(io::write_text_file(yaml, map_yaml(named)));
   SEMVIEW_TRY(const SemanticMap map, load_map(directory));
   return io::write_png(directory / "occupancy.png", occupancy_image(*map.columns()));

@@ -27,12 +27,14 @@ struct BundleText {
   double ceiling_height_m = 0.0;
   Rgb outside;
   std::vector<MapClass> classes;
+  std::string objects = {};  ///< the text of `objects.geojson`; "" for none
 };
 
 /// The text of a `map.yaml` that names `labels.png` and `occupancy.png`.
 std::string map_yaml(const BundleText& text);
 
-/// Makes `directory` with map.yaml, labels.png and occupancy.png, then loads it. If the folder's
+/// Makes `directory` with map.yaml, labels.png, occupancy.png and perhaps
+/// objects.geojson, then loads it. If the folder's
 /// name is no id, the map gets one made of it: "Ros Map" becomes ros_map.
 /// @errors kAlreadyExists: there is a map.yaml already; kUnavailable: cannot be written; and those
 /// of `load_map`: the files stay for a look, then.

@@ -29,7 +29,14 @@ ColumnProfile column_profile(const std::vector<MapClass>& classes,
                              const ClassTable& table,
                              ClassId id,
                              const Storey& storey) {
-  const MapClass& own = classes[id - 1U];
+  return column_profile(classes, table, classes[id - 1U], storey);
+}
+
+ColumnProfile column_profile(const std::vector<MapClass>& classes,
+                             const ClassTable& table,
+                             const MapClass& own,
+                             const Storey& storey) {
+  const ClassId id = table.id(own.name).value_or(kNoHit);
   const bool paint = own.min_height_m == own.max_height_m;
   ColumnProfile profile;
   profile.passable = own.passable;

@@ -25,4 +25,10 @@ ColumnProfile column_profile(const std::vector<MapClass>& classes,
                              ClassId id,
                              const Storey& storey);
 
+/// The column of a class whose heights, `above` and `below` are those of `own`, not of the list.
+ColumnProfile column_profile(const std::vector<MapClass>& classes,
+                             const ClassTable& table,
+                             const MapClass& own,
+                             const Storey& storey);
+
 }  // namespace semview::map::detail

@@ -13,18 +13,18 @@
 #include "semview/map/distortion.hpp"
 #include "semview/map/map_file.hpp"
 #include "semview/map/map_problem.hpp"
+#include "semview/map/object_writer.hpp"
+#include "semview/map/occupancy.hpp"
 
 namespace semview::map {
 namespace {
 
 using Path = std::filesystem::path;
 
-/// The drawing in the colours of its class list: entry 0 is outside, then every coloured class.
-RgbImage drawing_of(const ColumnMap& columns, const detail::MapFile& file) {
-  std::vector<Rgb> colors{file.outside};
-  for (const detail::ClassField& field : file.classes) {
-    if (field.value.color) colors.push_back(*field.value.color);
-  }
+/// The drawing in the colours of its class list, objects in that of their class.
+RgbImage drawing_of(const SemanticMap& map, Rgb outside) {
+  const std::vector<Rgb> colors = profile_colors(map, outside);
+  const ColumnMap& columns = *map.columns();
   RgbImage drawing(columns.rows(), columns.columns());
   for (int row = 0; row < columns.rows(); ++row) {
     for (int column = 0; column < columns.columns(); ++column) {
@@ -35,8 +35,9 @@ RgbImage drawing_of(const ColumnMap& columns, const detail::MapFile& file) {
 }
 
 detail::BundleText text_of(const detail::MapFile& file,
-                           const ColumnMap& columns,
+                           const SemanticMap& distorted,
                            const MapAffine& affine) {
+  const ColumnMap& columns = *distorted.columns();
   detail::BundleText text;
   text.name = file.name;
   text.comment = fmt::format(
@@ -51,6 +52,7 @@ detail::BundleText text_of(const detail::MapFile& file,
   }
   text.outside = file.outside;
   for (const detail::ClassField& field : file.classes) text.classes.push_back(field.value);
+  text.objects = detail::objects_text(distorted);
   return text;
 }
 
@@ -61,6 +63,8 @@ Status copy_the_rest(const detail::MapFile& file, const Path& directory) {
   const std::set<Path> parts{file.path.filename(),
                              file.labels.text,
                              file.image.text,
+                             file.objects.text,
+                             "objects.geojson",
                              file.classes_path.filename(),
                              "map.yaml",
                              "labels.png",
@@ -95,9 +99,8 @@ Status write_distorted(const Path& path,
   const std::optional<detail::MapFile> file = detail::read_map_file(
       std::filesystem::is_directory(path, ignored) ? path / "map.yaml" : path, report);
   if (!file) return fail(first_error(report));
-  SEMVIEW_TRY_STATUS(detail::write_bundle(text_of(*file, *distorted.columns(), affine),
-                                          drawing_of(*distorted.columns(), *file),
-                                          directory));
+  SEMVIEW_TRY_STATUS(detail::write_bundle(
+      text_of(*file, distorted, affine), drawing_of(distorted, file->outside), directory));
   return copy_the_rest(*file, directory);
 }
 

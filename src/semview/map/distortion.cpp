@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -41,6 +42,28 @@ Bounds distorted_bounds(const ColumnMap& drawn, const MapAffine& affine) {
     }
   }
   return bounds;
+}
+
+/// Leaves out the profiles of objects that no pixel has any more, and puts the others in the order
+/// of their first pixels: as they are when the map is read from files.
+void order_objects(ColumnMap& columns, PlanObjects& objects) {
+  const std::size_t classes = columns.profiles.size() - objects.profiles.size();
+  std::vector<int> place_of(columns.profiles.size(), -1);
+  for (std::size_t i = 0; i < classes; ++i) place_of[i] = static_cast<int>(i);
+  std::vector<ColumnProfile> profiles(columns.profiles.begin(),
+                                      columns.profiles.begin() + static_cast<long>(classes));
+  std::vector<MapClass> own;
+  for (std::uint8_t& pixel : columns.profile_of_pixel.pixels()) {
+    int& place = place_of[pixel];
+    if (place < 0) {
+      place = static_cast<int>(profiles.size());
+      profiles.push_back(columns.profiles[pixel]);
+      own.push_back(objects.profiles[pixel - classes]);
+    }
+    pixel = static_cast<std::uint8_t>(place);
+  }
+  columns.profiles = std::move(profiles);
+  objects.profiles = std::move(own);
 }
 
 }  // namespace
@@ -81,6 +104,7 @@ Result<SemanticMap> distort(const SemanticMap& drawn, const MapAffine& affine) {
     }
   }
   SemanticMap distorted = drawn;
+  order_objects(after, distorted.objects);
   distorted.geometry = std::move(after);
   distorted.fingerprint = fingerprint_of(distorted);
   return distorted;

@@ -19,8 +19,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr double kMaxHeight_m = 10'000.0;
-
 std::optional<Rgb> read_color(YamlFields& fields, const io::YamlNode& node) {
   constexpr const char* kRemedy = "write for example [120, 120, 120]";
   const std::optional<std::vector<double>> numbers = fields.take(node.numbers(3), kRemedy);
@@ -222,6 +220,15 @@ void read_geometry_kind(MapFile& file, YamlFields& fields) {
     file.labels.text.clear();
   }
   if (file.mesh.line > 0 && !stays_inside(fields, "mesh", file.mesh.text)) file.mesh.text.clear();
+  file.objects = read_text(fields, "objects", Need::kOptional, {});
+  if (file.objects.line > 0 && !stays_inside(fields, "objects", file.objects.text)) {
+    file.objects.text.clear();
+  }
+  if (file.objects.line > 0 && file.is_mesh()) {
+    fields.error(file.objects.line,
+                 "objects are given for a mesh",
+                 "they belong to a drawing; a mesh has its heights already");
+  }
   const bool refused = fields.line_of("labels") > 0 || fields.misspelt("labels") ||
                        fields.line_of("mesh") > 0 || fields.misspelt("mesh");
   if (file.labels.line == 0 && file.mesh.line == 0 && refused) return;
@@ -265,8 +272,16 @@ std::optional<MapFile> read_map_file(const Path& path, MapReport& report) {
   MapFile file;
   file.path = path;
   YamlFields fields(*block, path, report);
-  fields.expect_keys(
-      {"format", "id", "name", "labels", "mesh", "ceiling", "ground", "outside", "classes"});
+  fields.expect_keys({"format",
+                      "id",
+                      "name",
+                      "labels",
+                      "mesh",
+                      "objects",
+                      "ceiling",
+                      "ground",
+                      "outside",
+                      "classes"});
   read_format(fields, file, report);
   read_identity(file, fields);
   read_geometry_kind(file, fields);

@@ -50,7 +50,8 @@ struct MapFile {
   std::string name;
   TextField labels;  ///< either this or `mesh`
   TextField mesh;
-  TextField image;  ///< the occupancy image for ROS tools; may be absent
+  TextField objects;  ///< a GeoJSON file; only beside `labels`
+  TextField image;    ///< the occupancy image for ROS tools; may be absent
   double resolution_m = 0.0;
   Pose2 origin;
   LevelField ground;

@@ -20,6 +20,10 @@ std::string place_of(const MapProblem& problem) {
   if (problem.pixel) {
     place += fmt::format(": pixel (x {}, y {})", problem.pixel->column, problem.pixel->row);
   }
+  if (problem.feature) {
+    place += fmt::format(": feature {}", problem.feature->number);
+    if (!problem.feature->name.empty()) place += fmt::format(" ({})", problem.feature->name);
+  }
   return place;
 }
 
@@ -81,9 +85,10 @@ std::size_t MapReport::count(Severity severity) const {
 void sort_by_place(MapReport& report) {
   const auto place = [](const MapProblem& problem) {
     constexpr int kLast = std::numeric_limits<int>::max();
-    const bool whole = problem.line == 0 && !problem.pixel;
+    const bool whole = problem.line == 0 && !problem.pixel && !problem.feature;
     const PixelIndex pixel = problem.pixel.value_or(PixelIndex{});
-    return std::tuple(problem.file, whole ? kLast : problem.line, pixel.row, pixel.column);
+    const int feature = problem.feature ? problem.feature->number : 0;
+    return std::tuple(problem.file, whole ? kLast : problem.line, feature, pixel.row, pixel.column);
   };
   std::stable_sort(report.problems.begin(),
                    report.problems.end(),

@@ -17,17 +17,25 @@ enum class Severity {
   kWarning,  ///< it can be used, but may not be what its author meant
 };
 
+/// A feature of a GeoJSON file.
+struct Feature {
+  int number = 0;    ///< from 1, as they stand in the file
+  std::string name;  ///< "": it has none
+};
+
 struct MapProblem {
   Severity severity = Severity::kError;
   ErrorCode code = ErrorCode::kInvalidArgument;
   std::filesystem::path file;
   int line = 0;                     ///< 1-based; 0: none
   std::optional<PixelIndex> pixel;  ///< the first one concerned
-  std::string message;              ///< what is wrong
-  std::string remedy;               ///< what would be right
+  std::optional<Feature> feature;
+  std::string message;  ///< what is wrong
+  std::string remedy;   ///< what would be right
 };
 
-/// Where a problem lies: `map.yaml:12`, `labels.png: pixel (x 3, y 7)`, or the file alone.
+/// Where a problem lies: `map.yaml:12`, `labels.png: pixel (x 3, y 7)`, `objects.geojson: feature 2
+/// (sill)`, or the file alone.
 std::string place_of(const MapProblem& problem);
 
 /// `map.yaml:12: error: what; remedy` or `labels.png: pixel (x 3, y 7): error: what; remedy`.
@@ -56,8 +64,8 @@ struct MapReport {
   std::size_t count(Severity severity) const;
 };
 
-/// By file, then line, then pixel row and column; what concerns a whole file comes after its
-/// places.
+/// By file, then line, then feature, then pixel row and column; what concerns a whole file comes
+/// after its places.
 void sort_by_place(MapReport& report);
 
 /// The first error of a report that has one, as a value to return.

@@ -15,6 +15,8 @@
 #include "semview/map/map_file.hpp"
 #include "semview/map/map_limits.hpp"
 #include "semview/map/mesh_map_reader.hpp"
+#include "semview/map/object_drawing.hpp"
+#include "semview/map/object_rules.hpp"
 
 namespace semview::map::detail {
 namespace {
@@ -154,31 +156,16 @@ std::optional<RgbImage> read_labels(const MapFile& file, const Path& path, MapRe
   return opaque_colors(picture->pixels, path, report);
 }
 
-std::optional<ColumnMap> read_columns(const MapFile& file,
-                                      const LoadOptions& options,
-                                      MapReport& report) {
-  if (file.labels.text.empty()) return std::nullopt;
-  const Path path = file.path.parent_path() / file.labels.text;
-  const std::optional<RgbImage> labels = read_labels(file, path, report);
-  const bool complete = file.has_classes && file.all_coloured &&
-                        file.classes.size() <= static_cast<std::size_t>(kMaxClasses);
-  if (!labels || !complete) return std::nullopt;
-  const Palette palette = palette_of(file);
-  std::optional<Image<std::uint8_t>> pixels =
-      match_colors(*labels, palette.entries, options.nearest_colour, path, report);
-  if (!pixels) return std::nullopt;
+Path objects_path(const MapFile& file) { return file.path.parent_path() / file.objects.text; }
 
-  std::vector<bool> seen(palette.ids.size(), false);
-  for (const std::uint8_t index : pixels->pixels()) seen[index] = true;
-  std::vector<bool> drawn(file.classes.size(), false);
-  for (std::size_t i = 1; i < seen.size(); ++i) drawn[palette.ids[i] - 1U] = seen[i];
-  if (report.has_errors()) return std::nullopt;
-  check_unused(file, drawn, report);
-
-  const SemanticMap map = map_of(file);
-  const Storey storey = storey_of(file, map.classes);
+/// Columns of the drawing alone: one profile an entry of the palette.
+ColumnMap columns_of(const MapFile& file,
+                     const SemanticMap& map,
+                     const Storey& storey,
+                     const Palette& palette,
+                     Image<std::uint8_t> pixels) {
   ColumnMap columns;
-  columns.profile_of_pixel = *std::move(pixels);
+  columns.profile_of_pixel = std::move(pixels);
   columns.resolution_m = file.resolution_m;
   columns.origin = file.origin;
   columns.ground_height_m = storey.ground_height_m;
@@ -189,6 +176,66 @@ std::optional<ColumnMap> read_columns(const MapFile& file,
         column_profile(map.class_details, map.classes, palette.ids[i], storey));
   }
   return columns;
+}
+
+/// Marks what the drawing has of each class, and what objects add.
+void check_drawn(const MapFile& file,
+                 const Palette& palette,
+                 const Image<std::uint8_t>& pixels,
+                 const std::vector<ObjectClass>& objects,
+                 MapReport& report) {
+  std::vector<bool> seen(palette.ids.size(), false);
+  for (const std::uint8_t index : pixels.pixels()) seen[index] = true;
+  std::vector<bool> drawn(file.classes.size(), false);
+  for (std::size_t i = 1; i < seen.size(); ++i) drawn[palette.ids[i] - 1U] = seen[i];
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const std::string& name = file.classes[i].value.name;
+    for (const auto& [object, own] : objects) {
+      if (own.name == name || own.above == name || own.below == name) drawn[i] = true;
+    }
+  }
+  check_unused(file, drawn, report);
+}
+
+/// Sets the geometry of `map` and what belongs to it; false and the reason in the report if there
+/// is none.
+bool read_columns(const MapFile& file,
+                  const LoadOptions& options,
+                  MapReport& report,
+                  SemanticMap& map) {
+  std::vector<MapObject> features;
+  if (!file.objects.text.empty()) features = read_objects(objects_path(file), report);
+  const std::size_t feature_count = features.size();
+  std::vector<ObjectClass> objects;
+  if (file.has_classes) {
+    objects = check_objects(std::move(features), objects_path(file), file, report);
+  }
+  if (file.labels.text.empty()) return false;
+  const Path path = file.path.parent_path() / file.labels.text;
+  const std::optional<RgbImage> labels = read_labels(file, path, report);
+  const bool complete = file.has_classes && file.all_coloured &&
+                        file.classes.size() <= static_cast<std::size_t>(kMaxClasses);
+  if (!labels || !complete) return false;
+  const Palette palette = palette_of(file);
+  std::optional<Image<std::uint8_t>> pixels =
+      match_colors(*labels, palette.entries, options.nearest_colour, path, report);
+  if (!pixels || report.has_errors()) return false;
+  check_drawn(file, palette, *pixels, objects, report);
+
+  map = map_of(file);
+  map.drawing = path;
+  const Storey storey = storey_of(file, map.classes);
+  ColumnMap columns = columns_of(file, map, storey, palette, *std::move(pixels));
+  if (!file.objects.text.empty()) {
+    map.objects.features = feature_count;
+    map.objects.profiles =
+        draw_objects(objects,
+                     objects_path(file),
+                     {columns, palette.ids, map.class_details, map.classes, storey},
+                     report);
+  }
+  map.geometry = std::move(columns);
+  return true;
 }
 
 std::optional<SemanticMap> read_bundle(const Path& path,
@@ -204,11 +251,7 @@ std::optional<SemanticMap> read_bundle(const Path& path,
     map = map_of(*file);
     map.geometry = *std::move(mesh);
   } else {
-    std::optional<ColumnMap> columns = read_columns(*file, options, report);
-    if (!columns) return std::nullopt;
-    map = map_of(*file);
-    map.drawing = file->path.parent_path() / file->labels.text;
-    map.geometry = *std::move(columns);
+    if (!read_columns(*file, options, report, map)) return std::nullopt;
   }
   if (report.has_errors()) return std::nullopt;
   return map;

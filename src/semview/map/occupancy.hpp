@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "semview/geometry/image.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -19,7 +20,15 @@ inline constexpr std::uint8_t kUnknownGrey = 205;
 /// ground + height_m); passable columns are free.
 Image<std::uint8_t> occupancy_image(const ColumnMap& map, double height_m = 1.2);
 
-/// The plan in its classes' colours, outside in white. `columns` are those of `map`.
+/// The plan in its classes' colours, outside in white, objects with heights of their own in the
+/// `object_color` of their class. `columns` are those of `map`.
 RgbImage plan_image(const SemanticMap& map, const ColumnMap& columns);
+
+/// A shade of a class's colour that tells its objects from what is drawn in it.
+Rgb object_color(Rgb class_color);
+
+/// The colour in which each profile of a drawn map is drawn: that of its class, of `outside` for
+/// profile 0.
+std::vector<Rgb> profile_colors(const SemanticMap& map, Rgb outside);
 
 }  // namespace semview::map

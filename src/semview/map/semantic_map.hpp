@@ -2,6 +2,7 @@
 /// A loaded map, drawn or meshed, ready to be cast.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,6 +24,15 @@ struct MeshGeometry {
   std::filesystem::path file;
 };
 
+/// What `objects.geojson` has put into a plan. The columns hold it already: this is for people, and
+/// for writing the map again.
+struct PlanObjects {
+  std::size_t features = 0;  ///< in the file
+  /// The profiles of the columns after those of the classes: the class of each with the heights,
+  /// `above` and `below` that it has there.
+  std::vector<MapClass> profiles;
+};
+
 /// Everything about one map. Immutable once loaded; shared as `shared_ptr<const SemanticMap>`.
 struct SemanticMap {
   std::string id;                   ///< [a-z0-9_-]+
@@ -35,6 +45,7 @@ struct SemanticMap {
   ClassId ground_label = kNoHit;  ///< `kNoHit` for a mesh without a class for it
   std::optional<Ceiling> ceiling;
   std::variant<ColumnMap, MeshGeometry> geometry;
+  PlanObjects objects;
   Fingerprint fingerprint;
 
   const ColumnMap* columns() const { return std::get_if<ColumnMap>(&geometry); }
