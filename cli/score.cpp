@@ -11,10 +11,13 @@
 
 #include "client/lib/remote_maps.hpp"
 #include "client/lib/remote_score_source.hpp"
+#include "client/lib/remote_view_source.hpp"
 #include "observation_option.hpp"
 #include "pose_list.hpp"
+#include "score_explain.hpp"
 #include "semview/core/hash.hpp"
 #include "semview/geometry/angle.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "server_option.hpp"
@@ -34,6 +37,7 @@ struct Options {
   std::string weights;
   std::string pose;
   std::string poses;
+  std::string explain;  ///< a picture; empty for none
   bool compass = false;
   bool curve = false;
   bool clip = false;
@@ -51,6 +55,11 @@ Result<ScoreRequest> request_of(const Options& options) {
   } else {
     SEMVIEW_TRY(const Pose2 pose, parse_pose("--pose", options.pose));
     request.poses.push_back(pose);
+  }
+  if (!options.explain.empty() && request.poses.size() != 1) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("--explain takes one pose, {} are given", request.poses.size()),
+                      "--explain"});
   }
   const bool compass = options.compass || options.curve;
   request.mode = compass ? HeadingMode::kCompass : HeadingMode::kAsGiven;
@@ -98,6 +107,8 @@ ordered_json pose_json(const ScoreRequest& request,
 struct Scorer {
   std::shared_ptr<service::Site> site;  ///< what `source` stands on; null with a server
   std::unique_ptr<ScoreSource> source;
+  std::optional<similarity::WeightMatrix> weights;
+  ClassTable map_classes;
   std::string map_id;
   Fingerprint fingerprint;
   std::string engine, engine_reason;
@@ -110,9 +121,10 @@ Result<Scorer> open_remote(const Options& options, const ClassTable& observed) {
   SEMVIEW_TRY(const protocol::MapDescription map, client::get_map(connection, options.site.map));
   SEMVIEW_TRY(similarity::WeightMatrix weights,
               read_weights(options.weights, observed, map.classes));
-  SEMVIEW_TRY(auto remote,
-              client::RemoteScoreSource::open(config, options.site.map, std::move(weights)));
+  SEMVIEW_TRY(auto remote, client::RemoteScoreSource::open(config, options.site.map, weights));
   Scorer scorer;
+  scorer.weights = std::move(weights);
+  scorer.map_classes = map.classes;
   scorer.map_id = remote->map().summary.id;
   scorer.fingerprint = remote->map().summary.fingerprint;
   scorer.engine = remote->map().engine;
@@ -131,15 +143,37 @@ Result<Scorer> open_scorer(const Options& options, const ClassTable& observed) {
   scorer.fingerprint = scorer.site->map().fingerprint;
   scorer.engine = scorer.site->engine().name;
   scorer.engine_reason = scorer.site->engine().reason;
+  scorer.map_classes = scorer.site->map().classes;
   scorer.source = std::make_unique<similarity::SimilarityScoreSource>(
-      scorer.site->views(), scorer.site->map().classes, std::move(weights), scorer.site->pool());
+      scorer.site->views(), scorer.map_classes, weights, scorer.site->pool());
+  scorer.weights = std::move(weights);
   return scorer;
+}
+
+/// Writes the picture of `--explain`; none unless it is asked for.
+Result<std::optional<similarity::ScoreExplanation>> explain_for(const Options& options,
+                                                                const Scorer& scorer,
+                                                                const ScoreParts& parts,
+                                                                const Pose2& pose,
+                                                                const ScoreBatch& batch) {
+  std::optional<similarity::ScoreExplanation> explanation;
+  if (options.explain.empty()) return explanation;
+  if (scorer.site) {
+    SEMVIEW_TRY(explanation, explain(parts, scorer.site->views(), pose, batch, options.explain));
+    return explanation;
+  }
+  SEMVIEW_TRY(const client::ConnectionConfig config,
+              connection_to(options.server, "score", client::ConnectionConfig{}.timeout));
+  SEMVIEW_TRY(const auto views, client::RemoteViewSource::open(config, options.site.map));
+  SEMVIEW_TRY(explanation, explain(parts, *views, pose, batch, options.explain));
+  return explanation;
 }
 
 void print_json(const Scorer& scorer,
                 const ScoreRequest& request,
                 const ScoreBatch& batch,
-                bool clip) {
+                bool clip,
+                std::optional<ordered_json> explanation) {
   ordered_json json{{"map", scorer.map_id},
                     {"fingerprint", to_hex(scorer.fingerprint)},
                     {"engine", scorer.engine},
@@ -155,6 +189,7 @@ void print_json(const Scorer& scorer,
     poses.push_back(pose_json(request, batch, i, clip));
   }
   json["poses"] = std::move(poses);
+  if (explanation) json["explanation"] = *std::move(explanation);
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
@@ -189,6 +224,7 @@ void print_table(const ScoreRequest& request, const ScoreBatch& batch, const Opt
 
 Status score(const CLI::App& verb, const Options& options) {
   if (!options.server.empty()) SEMVIEW_TRY_STATUS(check_no_site_options(verb));
+  if (!options.explain.empty()) SEMVIEW_TRY_STATUS(io::check_output_png(options.explain));
   SEMVIEW_TRY(const ScoreRequest request, request_of(options));
   SEMVIEW_TRY(const ClassTable observed, read_observed_classes(options.observation));
   SEMVIEW_TRY(const Scorer scorer, open_scorer(options, observed));
@@ -196,11 +232,17 @@ Status score(const CLI::App& verb, const Options& options) {
               read(options.observation, scorer.source->profile().camera));
   SEMVIEW_TRY_STATUS(scorer.source->set_observation(observation));
   SEMVIEW_TRY(const ScoreBatch batch, scorer.source->score(request));
+  const ScoreParts parts{observation, *scorer.weights, scorer.map_classes};
+  SEMVIEW_TRY(const auto explanation,
+              explain_for(options, scorer, parts, request.poses.front(), batch));
   if (options.json) {
-    print_json(scorer, request, batch, options.clip);
-  } else {
-    print_table(request, batch, options);
+    std::optional<ordered_json> tables;
+    if (explanation) tables = explanation_json(*explanation, parts);
+    print_json(scorer, request, batch, options.clip, std::move(tables));
+    return {};
   }
+  print_table(request, batch, options);
+  if (explanation) print_explanation(*explanation, parts);
   return {};
 }
 
@@ -223,6 +265,11 @@ void add_score_verb(CLI::App& app, int& exit_code) {
   verb->add_flag("--compass", options->compass, "Try all 120 headings, report the best");
   verb->add_flag(
       "--curve", options->curve, "With the similarity of each heading (implies --compass)");
+  verb->add_option("--explain",
+                   options->explain,
+                   "Of one pose, with the compass at its best heading: what raised and lowered the "
+                   "score by pixel, in a picture, and by class, in tables behind the result")
+      ->type_name("OUT.png");
   verb->add_flag("--clip-negative", options->clip, "Report negative similarities as 0");
   verb->add_flag("--json", options->json, "Print the result as JSON");
   verb->footer(

@@ -90,6 +90,48 @@ TEST_F(ScoreVerbsTest, PosesOfAFileAreScoredInOrder) {
   EXPECT_TRUE(poses[1]["similarity"].is_null());
 }
 
+TEST_F(ScoreVerbsTest, AnExplanationAddsUpToTheScoreAndAServersIsTheSame) {
+  const std::string pose =
+      " --pose " + std::to_string(truth_.x_m + 0.3) + "," + std::to_string(truth_.y_m) + ",0";
+  const std::string how = " --compass --json --explain ";
+  const Outcome here = run("score " + inputs() + pose + how + file("why.png"));
+  ASSERT_EQ(here.exit_code, 0) << here.output;
+  const json result = json::parse(here.output);
+  for (const char* table : {"observed", "pairs"}) {
+    int sum = 0;
+    int pixels = 0;
+    for (const json& entry : result["explanation"][table]) {
+      sum += entry["sum"].get<int>();
+      pixels += entry["pixels"].get<int>();
+    }
+    EXPECT_EQ(sum, result["poses"][0]["sum"]) << table;
+    EXPECT_EQ(pixels, result["observed_pixels"]) << table;
+  }
+  EXPECT_GT(io::read_png_rgb(file("why.png"))->rows(), 300);
+
+  const semview::testing::RunningServer server({"--map", kMap, "--bind", "tcp://127.0.0.1:*"},
+                                               folder_ / "explaining");
+  const Outcome there =
+      run("score duplex_level1 --server " + server.endpoint() + " --obs " + file("obs") +
+          " --weights " + kMap + "/weights.csv" + pose + how + file("theirs.png"));
+  ASSERT_EQ(there.exit_code, 0) << there.output;
+  EXPECT_EQ(json::parse(there.output)["explanation"], result["explanation"]);
+  EXPECT_EQ(semview::testing::file_bytes(file("theirs.png")),
+            semview::testing::file_bytes(file("why.png")));
+
+  const Outcome table = run("score " + inputs() + pose + " --explain " + file("why.png"));
+  EXPECT_THAT(table.output, HasSubstr("observed,map,share,contribution"));
+  const Outcome outside =
+      run("score " + inputs() + " --pose 1000,1000,0 --explain " + file("why.png"));
+  EXPECT_EQ(outside.exit_code, 1);
+  EXPECT_THAT(outside.output, HasSubstr("there is no view at"));
+  std::ofstream(file("two.csv")) << "1,2,0\n1,2,90\n";
+  EXPECT_EQ(
+      run("score " + inputs() + " --poses " + file("two.csv") + " --explain " + file("why.png"))
+          .exit_code,
+      2);
+}
+
 TEST_F(ScoreVerbsTest, TheHeatMapIsHighestWhereTheRobotStands) {
   const Outcome outcome = run("heatmap " + inputs() + " --columns 120 --rows 30 -o " +
                               file("heat.png") + " --npy " + file("heat.npy") + " --json");

@@ -36,4 +36,13 @@ Rgb viridis(double share) {
   return {between(a.r, b.r, rest), between(a.g, b.g, rest), between(a.b, b.b, rest)};
 }
 
+Rgb diverging(double share) {
+  const double s = std::clamp(share, -1.0, 1.0);
+  const Rgb full = s >= 0.0 ? Rgb{33, 102, 172} : Rgb{178, 24, 43};
+  const auto mix = [&](unsigned char to) {
+    return static_cast<unsigned char>(std::lround(255.0 + std::abs(s) * (to - 255.0)));
+  };
+  return {mix(full.r), mix(full.g), mix(full.b)};
+}
+
 }  // namespace semview::picture

@@ -10,4 +10,7 @@ namespace semview::picture {
 /// lightness. `share` is clamped to [0, 1].
 Rgb viridis(double share);
 
+/// White at 0, ever stronger blue up to 1, red down to -1; `share` is clamped to [-1, 1].
+Rgb diverging(double share);
+
 }  // namespace semview::picture

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "semview/picture/canvas.hpp"
+#include "semview/picture/colour_map.hpp"
 
 namespace semview::picture {
 namespace {
@@ -15,16 +16,6 @@ namespace {
 constexpr double kSquareWidth = 44.0;
 constexpr double kSquareHeight = 22.0;
 constexpr double kGap = 26.0;
-
-/// White at 0, blue at 1, red at -1.
-Rgb diverging(double share) {
-  const double s = std::clamp(share, -1.0, 1.0);
-  const Rgb full = s >= 0.0 ? Rgb{33, 102, 172} : Rgb{178, 24, 43};
-  const auto mix = [&](unsigned char to) {
-    return static_cast<unsigned char>(std::lround(255.0 + std::abs(s) * (to - 255.0)));
-  };
-  return {mix(full.r), mix(full.g), mix(full.b)};
-}
 
 double widest(const std::vector<std::string>& texts) {
   double width = 0.0;

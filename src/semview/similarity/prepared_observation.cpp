@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "semview/core/check.hpp"
+#include "semview/similarity/integer_weights.hpp"
 #include "semview/similarity/run_sweep.hpp"
 
 namespace semview::similarity {
@@ -29,46 +29,11 @@ std::int32_t scale_for(double max_abs_weight, int rows) {
   return scale;
 }
 
-/// Integer weights [map class][label] of a band; labels that are not scored have zeros.
-std::vector<std::int16_t> integer_weights(const WeightMatrix& weights,
-                                          std::size_t band,
-                                          std::int32_t scale,
-                                          const ClassTable& observed,
-                                          const ClassTable& map) {
-  const auto position = [](std::span<const std::string> names, std::string_view name) {
-    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-  };
-  const auto map_classes = static_cast<std::size_t>(map.size()) + 1;
-  std::vector<std::size_t> column_of(map_classes, position(weights.map_names(), kNoneColumn));
-  for (std::size_t j = 1; j < map_classes; ++j) {
-    column_of[j] = position(weights.map_names(), map.names()[j - 1]);
-  }
-  std::vector<std::int16_t> integers(256 * map_classes, 0);
-  for (std::size_t i = 1; i <= observed.names().size(); ++i) {
-    const std::size_t row = position(weights.observed_names(), observed.names()[i - 1]);
-    for (std::size_t j = 0; j < map_classes; ++j) {
-      integers[j * 256 + i] =
-          static_cast<std::int16_t>(std::lround(weights.weight(band, row, column_of[j]) * scale));
-    }
-  }
-  return integers;
-}
-
-std::optional<std::size_t> band_at(const WeightMatrix& weights, double elevation_deg) {
-  for (std::size_t b = 0; b < weights.bands().size(); ++b) {
-    const WeightMatrix::Band& band = weights.bands()[b];
-    if (elevation_deg >= band.elevation_min_deg && elevation_deg < band.elevation_max_deg) return b;
-  }
-  return {};
-}
-
 struct Extent {
   std::int32_t pixels = 0;
   int first_column = std::numeric_limits<int>::max();
   int last_column = -1;
 };
-
-bool is_scored(ClassId label) { return label != kNoHit && label != kUnknown; }
 
 Result<Extent> observed_extent(const Observation& observation) {
   Extent extent;
@@ -151,24 +116,11 @@ Result<PreparedObservation> PreparedObservation::build(const Observation& observ
                     kMaxTableBytes));
   }
 
-  std::vector<std::vector<std::int16_t>> of_band;
-  for (std::size_t b = 0; b < weights.bands().size(); ++b) {
-    of_band.push_back(
-        integer_weights(weights, b, prepared.weight_scale_, observation.classes, map_classes));
-  }
-  std::vector<const std::int16_t*> of_row;
-  for (int r = 0; r < camera.rows; ++r) {
-    const double elevation_deg = deg_from_rad(camera.elevation_rad(r));
-    const std::optional<std::size_t> band = band_at(weights, elevation_deg);
-    if (!band) {
-      return fail(ErrorCode::kFailedPrecondition,
-                  fmt::format("weights: no band for elevation {:g} degrees of the view profile",
-                              elevation_deg));
-    }
-    of_row.push_back(of_band[*band].data());
-  }
+  SEMVIEW_TRY(
+      const IntegerWeights integers,
+      integer_weights(weights, prepared.weight_scale_, observation.classes, map_classes, camera));
   prepared.table_ = PrefixTable(camera.rows, camera.columns, classes, first_group, groups);
-  prepared.table_.fill(observation.labels, of_row);
+  prepared.table_.fill(observation.labels, integers.of_row);
   return prepared;
 }
 
