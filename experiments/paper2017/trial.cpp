@@ -48,6 +48,7 @@ StopRecord measure(const ParticleSet& particles, const Method& method, const Pos
                      .map_from_robot,
                  truth);
   const Pose2 estimate = localization::estimate_pose(particles, method.estimate).map_from_robot;
+  record.map_from_robot = estimate;
   record.estimate_m = distance_m(estimate, truth);
   record.heading_rad = std::abs(wrap_angle(estimate.yaw_rad - truth.yaw_rad));
   record.affine = localization::estimate_affine(particles).mean;

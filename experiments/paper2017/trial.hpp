@@ -13,6 +13,7 @@
 #include "semview/core/result.hpp"
 #include "semview/core/thread_pool.hpp"
 #include "semview/geometry/affine.hpp"
+#include "semview/geometry/pose2.hpp"
 #include "semview/similarity/weight_matrix.hpp"
 #include "semview/view/observation.hpp"
 #include "semview/view/view_source.hpp"
@@ -31,6 +32,7 @@ struct StopRecord {
   double min_m = 0.0;            ///< of the nearest particle
   double heading_rad = 0.0;      ///< error of the estimate's heading
   double odometry_m = 0.0;       ///< of odometry alone
+  Pose2 map_from_robot;          ///< the method's own estimate
   MapAffine affine;              ///< as estimated; the identity without a distortion in the state
   std::size_t particles = 0;
   double effective_sample_size = 0.0;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+/// `semview evaluate sketches`.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "evaluate_verbs.hpp"
+#include "experiments/paper2017/sketch_drives.hpp"
+#include "experiments/paper2017/sketch_picture.hpp"
+#include "experiments/paper2017/sketch_report.hpp"
+#include "semview/io/png.hpp"
+#include "semview/io/text_file.hpp"
+#include "site_options.hpp"
+#include "verb.hpp"
+
+namespace semview::cli {
+namespace {
+
+using paper2017::SketchDrive;
+using paper2017::SketchSettings;
+using paper2017::Start;
+
+struct Options {
+  SketchSettings settings;
+  std::vector<std::string> starts{"local", "global"};
+  std::string out = "sketch_results";
+};
+
+/// The last method's first drive on the first sketch of each world.
+Status draw_pictures(const SketchSettings& settings, const std::vector<SketchDrive>& drives) {
+  for (const std::uint64_t world : settings.worlds) {
+    const SketchDrive* shown = nullptr;
+    for (const SketchDrive& drive : drives) {
+      if (drive.world != world || drive.sketch != 1 || drive.run != 1 ||
+          drive.start != settings.starts.front() || drive.method == paper2017::kOdometryAlone) {
+        continue;
+      }
+      shown = &drive;
+    }
+    if (shown == nullptr) continue;
+    SEMVIEW_TRY(const RgbImage picture, paper2017::draw_sketch_drive(settings, *shown));
+    SEMVIEW_TRY_STATUS(io::write_png(settings.out / fmt::format("world_{}.png", world), picture));
+  }
+  return {};
+}
+
+Status evaluate_sketches(const Options& options) {
+  SketchSettings settings = options.settings;
+  settings.out = options.out;
+  settings.starts.clear();
+  for (const std::string& start : options.starts) {
+    settings.starts.push_back(start == "local" ? Start::kLocal : Start::kGlobal);
+  }
+  SEMVIEW_TRY(const std::vector<SketchDrive> drives,
+              paper2017::drive_sketches(settings, [](std::size_t done, std::size_t all) {
+                fmt::print(stderr, "[{}/{}] sketches\n", done, all);
+              }));
+  const std::string table = paper2017::to_markdown(paper2017::summarize(drives));
+  fmt::print("{}", table);
+  SEMVIEW_TRY_STATUS(io::write_text_file(settings.out / "sketches.md", table));
+  SEMVIEW_TRY_STATUS(
+      io::write_text_file(settings.out / "sketch_stops.csv", paper2017::to_csv(drives)));
+  return draw_pictures(settings, drives);
+}
+
+}  // namespace
+
+void add_evaluate_sketches_verb(CLI::App& evaluate, int& exit_code) {
+  CLI::App* verb = evaluate.add_subcommand(
+      "sketches",
+      "Robots in generated buildings, localized on sketches of them: rooms stretched by 0.7 to "
+      "1.4, "
+      "ends of walls 0.3 to 0.8 m off, walls and furniture missing or swapped. Prints how many "
+      "stops are put into the right room and whether rooms come in the right order; writes "
+      "sketches.md, sketch_stops.csv and a picture a world. See experiments/paper2017/README.md.");
+  const auto options = std::make_shared<Options>();
+  SketchSettings& settings = options->settings;
+  verb->add_option("--worlds", settings.worlds, "1..100 for results, 201..205 to choose settings")
+      ->delimiter(',')
+      ->capture_default_str();
+  verb->add_option("--sketches", settings.sketches, "Sketches of each world")
+      ->capture_default_str();
+  verb->add_option("--runs", settings.runs, "Filter seeds a sketch")->capture_default_str();
+  verb->add_option("--seed", settings.seed, "Seed of sketches and filters")->capture_default_str();
+  verb->add_option("--threads", settings.threads, "0: one a core; results do not change")
+      ->capture_default_str();
+  verb->add_option("--methods", settings.methods, "Some of weighted, none, global, local")
+      ->type_name("METHOD,...")
+      ->delimiter(',');
+  verb->add_option("--starts", options->starts, "Known start, unknown start or both")
+      ->type_name("local,global")
+      ->check(CLI::IsMember({"local", "global"}))
+      ->delimiter(',');
+  add_engine_option(*verb, settings.engine);
+  verb->add_option("-o,--out", options->out, "Folder of the results")->capture_default_str();
+  verb->footer("Example: semview evaluate sketches --worlds 1,2 --runs 1 -o sketches");
+  verb->callback([options, &exit_code] { exit_code = report(evaluate_sketches(*options)); });
+}
+
+}  // namespace semview::cli
