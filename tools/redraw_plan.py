@@ -20,6 +20,7 @@ import zlib
 from pathlib import Path
 
 WALL_M = 0.6  # strips up to this width are walls
+DOOR_M = 0.06  # how far doors stand out of their walls
 FACTORS = (0.7, 1.4)
 ENDS_M = (0.3, 0.8)
 MISSING_WALLS = 0.1
@@ -129,19 +130,21 @@ def redraw_walls(rows, rooms, colors, resolution_m, rng):
                 if sum(pixel in solid for pixel in line) * 2 < len(line):
                     continue  # no wall there
 
-                def box(low, high):
-                    return ((across[0], low, across[1], high) if along_y
-                            else (low, across[0], high, across[1]))
+                def box(low, high, more=0):
+                    first, last = across[0] - more, across[1] + more
+                    return (first, low, last, high) if along_y else (low, first, high, last)
 
+                more = round(DOOR_M / resolution_m)
                 off = round(rng.uniform(*ENDS_M) / resolution_m)
                 at_end, longer = rng.random() < 0.5, rng.random() < 0.5
                 if rng.random() < MISSING_WALLS:
-                    fill(box(*along), colors["floor"], solid)
+                    fill(box(*along, more), colors["floor"], solid)
                 elif longer:
                     end = box(along[1], along[1] + off) if at_end else box(along[0] - off, along[0])
                     fill(end, colors["wall"], {colors["floor"]})
                 else:
-                    end = box(along[1] - off, along[1]) if at_end else box(along[0], along[0] + off)
+                    end = (box(along[1] - off, along[1], more) if at_end
+                           else box(along[0], along[0] + off, more))
                     fill(end, colors["floor"], solid)
 
 
