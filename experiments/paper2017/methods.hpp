@@ -11,6 +11,7 @@
 
 #include "semview/core/result.hpp"
 #include "semview/localization/affine_state.hpp"
+#include "semview/localization/annealed_start.hpp"
 #include "semview/localization/heading_strategy.hpp"
 #include "semview/localization/pose_estimate.hpp"
 #include "semview/localization/position_noise_model.hpp"
@@ -37,6 +38,8 @@ struct Method {
   observation::CombinedHeadingConfig combined = {};
   localization::PositionNoiseConfig motion = {.heading_sigma_rad = rad_from_deg(0.3)};
   std::optional<localization::AffineStateConfig> affine = {};  ///< none: the map is exact
+  /// none: an unknown start is 2000 particles drawn evenly, weighed by the first image.
+  std::optional<localization::AnnealedStartConfig> annealed_start = {};
   double start_sigma_m = 0.1;
   double start_heading_sigma_rad = rad_from_deg(3.0);
   /// The estimate that tables call "best".

@@ -157,7 +157,21 @@ Result<std::vector<StopRecord>> run_trial(const RowWorld& world,
     observation::ScoreSourceObservationModel& used = i == 0 ? first_model : model;
     SEMVIEW_TRY_STATUS(used.set_observation(world.observations[i]));
     const TimePoint before = clock.now();
-    SEMVIEW_TRY(const localization::UpdateReport report, filter.update(used));
+    localization::UpdateReport report;
+    const bool searches = i == 0 && start == Start::kGlobal && method.annealed_start;
+    if (searches) {
+      SEMVIEW_TRY(ParticleSet found,
+                  localization::annealed_particles(used,
+                                                   world.free_cells,
+                                                   method.affine,
+                                                   *method.annealed_start,
+                                                   kGlobalParticles,
+                                                   start_rng));
+      filter.restart(std::move(found));
+      report.effective_sample_size = static_cast<double>(kGlobalParticles);
+    } else {
+      SEMVIEW_TRY(report, filter.update(used));
+    }
     const std::chrono::duration<double> taken = clock.now() - before;
     StopRecord record = measure(filter.particles(), method, world.truth[i]);
     record.stop = static_cast<int>(i) + 1;
@@ -166,7 +180,7 @@ Result<std::vector<StopRecord>> run_trial(const RowWorld& world,
     record.effective_sample_size = report.effective_sample_size;
     record.odometry_m = distance_m(map_from_odom * world.odometry[i], world.truth[i]);
     records.push_back(record);
-    filter.resample_if_needed();
+    if (!searches) filter.resample_if_needed();
   }
   return records;
 }

@@ -83,6 +83,24 @@ void spread_affines(ParticleSet& particles, const AffineStateConfig& config, Rng
   }
 }
 
+MapAffine moved(const MapAffine& affine, double sigma, Rng& rng) {
+  if (affine.is_identity()) return affine;
+  Coordinates at = coordinates(affine);
+  for (double& coordinate : at) coordinate += rng.normal(0.0, sigma);
+  return affine_of(at);
+}
+
+double log_prior(const MapAffine& affine, const AffineStateConfig& config) {
+  if (affine.is_identity()) return 0.0;
+  const Coordinates at = coordinates(affine);
+  const Coordinates sigma{config.log_scale_sigma, config.log_scale_sigma, config.shear_sigma};
+  double log_density = 0.0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (sigma[i] > 0.0) log_density -= 0.5 * (at[i] / sigma[i]) * (at[i] / sigma[i]);
+  }
+  return log_density;
+}
+
 void renew_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng) {
   const Spread spread =
       spread_of(particles, [](const Particle& one) { return !one.affine.is_identity(); });

@@ -31,6 +31,13 @@ Status validate(const AffineStateConfig& config);
 /// Gives each particle a distortion drawn from the prior.
 void spread_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng);
 
+/// A distortion moved at random by σ in ln a, ln b and k; an exact one stays exact.
+MapAffine moved(const MapAffine& affine, double sigma, Rng& rng);
+
+/// Logarithm of the prior's density in ln a, ln b and k, up to a constant; the same for all that
+/// are exact.
+double log_prior(const MapAffine& affine, const AffineStateConfig& config);
+
 /// Moves the distortions of particles that are not exact a little, as after each resampling.
 void renew_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng);
 
