@@ -85,7 +85,7 @@ std::vector<Method> make_methods() {
   ours.id = "ours";
   ours.title = "as learned, with the map's distortion in the state";
   ours.affine = localization::AffineStateConfig{};
-  ours.annealed_start = localization::AnnealedStartConfig{};
+  ours.annealed_start.emplace().exponent = 0.5;
   ours.motion.sigma_m = 0.05;
   ours.motion.sigma_per_m = 0.02;
   ours.motion.heading_sigma_rad = rad_from_deg(1.0);
@@ -201,13 +201,14 @@ std::string describe(const Method& method) {
   if (method.annealed_start) {
     text += fmt::format(
         ", unknown start: {} hypotheses, {} moved {} times by {:g} m and {:g} in "
-        "each round, {:g} kept",
+        "each round, {:g} kept, to the power {:g}",
         method.annealed_start->hypotheses,
         method.annealed_start->survivors,
         method.annealed_start->moves,
         method.annealed_start->move_m,
         method.annealed_start->move_affine,
-        method.annealed_start->keep);
+        method.annealed_start->keep,
+        method.annealed_start->exponent);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/localization/annealed_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -86,6 +87,21 @@ TEST(AnnealedStartTest, PlacesGetAsManyParticlesAsTheyAreProbable) {
   EXPECT_NEAR(std::sqrt(square), model.sigma_m * std::sqrt(2.0), 0.03);
 }
 
+TEST(AnnealedStartTest, ASmallerPowerKeepsMoreOfTheWeakerPlace) {
+  TwoPlaces model;
+  model.second_weight = 100.0;
+  AnnealedStartConfig config = kQuick;
+  config.exponent = 0.25;
+  Rng rng(5);
+  const auto particles = annealed_particles(model, floor_cells(), std::nullopt, config, 1000, rng);
+  ASSERT_TRUE(particles);
+  const auto near_first = std::ranges::count_if(*particles, [&](const Particle& particle) {
+    return distance_m(particle.map_from_robot, model.first) < 2.0;
+  });
+  // 1 : 100^0.25
+  EXPECT_NEAR(static_cast<double>(near_first), 240.0, 100.0);
+}
+
 TEST(AnnealedStartTest, TheDistortionIsFoundWithThePlace) {
   TwoPlaces model;
   model.tells_distortion = true;
@@ -133,6 +149,7 @@ TEST(AnnealedStartTest, ConfigurationsAreChecked) {
   const auto field = [](AnnealedStartConfig config) { return validate(config).error().field; };
   EXPECT_EQ(field({.survivors = 0}), "survivors");
   EXPECT_EQ(field({.hypotheses = 10}), "hypotheses");
+  EXPECT_EQ(field({.exponent = 1.5}), "exponent");
   EXPECT_EQ(field({.keep = 1.0}), "keep");
   EXPECT_EQ(field({.most_rounds = 0}), "most_rounds");
   EXPECT_EQ(field({.moves = 0}), "moves");

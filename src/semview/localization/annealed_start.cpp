@@ -49,9 +49,9 @@ class Sampler {
                   "the observation is possible nowhere: no hypothesis has a weight");
     }
     double exponent = 0.0;
-    for (int round = 1; exponent < 1.0; ++round) {
-      const double before =
-          std::exchange(exponent, round >= config_.most_rounds ? 1.0 : next_exponent(exponent));
+    for (int round = 1; exponent < config_.exponent; ++round) {
+      const double before = std::exchange(
+          exponent, round >= config_.most_rounds ? config_.exponent : next_exponent(exponent));
       resample(exponent - before, config_.survivors);
       for (int i = 0; i < config_.moves; ++i) SEMVIEW_TRY_STATUS(move(exponent));
     }
@@ -114,13 +114,13 @@ class Sampler {
     return sum * sum / squares;
   }
 
-  /// The largest one at most 1 that leaves as many effective samples as asked for.
+  /// The largest one that leaves as many effective samples as asked for.
   double next_exponent(double exponent) const {
     const double wanted =
         config_.keep * std::min(effective(0.0), static_cast<double>(config_.survivors));
     double low = 0.0;
-    double high = 1.0 - exponent;
-    if (effective(high) >= wanted) return 1.0;
+    double high = config_.exponent - exponent;
+    if (effective(high) >= wanted) return config_.exponent;
     for (int i = 0; i < kBisections; ++i) {
       const double middle = 0.5 * (low + high);
       (effective(middle) >= wanted ? low : high) = middle;
@@ -191,6 +191,10 @@ Status validate(const AnnealedStartConfig& config) {
                              "hypotheses",
                              number(config.hypotheses),
                              "at least as many as survivors"));
+  SEMVIEW_TRY_STATUS(require(config.exponent > 0.0 && config.exponent <= 1.0,
+                             "exponent",
+                             config.exponent,
+                             "above 0, at most 1"));
   SEMVIEW_TRY_STATUS(
       require(config.keep > 0.0 && config.keep < 1.0, "keep", config.keep, "above 0, below 1"));
   SEMVIEW_TRY_STATUS(
