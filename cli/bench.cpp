@@ -42,6 +42,10 @@ ordered_json to_json(const Row& row) {
                        {"size", row.size},
                        {"threads", row.threads},
                        {"goal", row.goal.text}};
+  if (!row.engine.empty()) {
+    json["engine"] = row.engine;
+    json["engine_reason"] = row.engine_reason;
+  }
   if (row.found) {
     const benchmark::Finding& found = *row.found;
     json["unit"] = found.unit;

@@ -63,9 +63,12 @@ TEST(SuiteTest, LabelsAloneSayNothingOfRangesAndPrecomputeNamesItsEngine) {
     ASSERT_TRUE(row.found) << row.id << ": " << row.note;
     if (row.id == "labels") {
       EXPECT_THAT(row.found->agreement, Not(HasSubstr("ranges")));
+      EXPECT_EQ(row.engine, "") << "it opens no map as the service does";
       EXPECT_EQ(row.found->clock, "thread");
     } else {
-      EXPECT_THAT(row.found->agreement, HasSubstr(row.id == "precompute" ? "columns" : "embree"));
+      EXPECT_EQ(row.engine, row.id == "precompute" ? "columns" : "embree");
+      EXPECT_NE(row.engine_reason, "");
+      EXPECT_THAT(row.found->agreement, HasSubstr(row.engine));
     }
   }
 }

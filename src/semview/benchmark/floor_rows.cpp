@@ -40,14 +40,14 @@ struct Floor {
   }
 };
 
-Result<Floor> open_floor(const Circumstances& in) {
+Result<Floor> open_floor(const Circumstances& in, Row& row) {
   SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   service::SiteConfig config = config_of(in);
   config.memory_bytes = std::uint64_t{2} << 30U;  // 100 000 views with room to spare
   std::vector<CellIndex> cells = in.subject.sample(in.extent.floor_cells);
   std::ranges::sort(cells);
-  SEMVIEW_TRY(std::shared_ptr<service::Site> site, service::Site::open(map, config));
+  SEMVIEW_TRY(std::shared_ptr<service::Site> site, open_site(map, config, row));
   SEMVIEW_TRY(ScoringTask task, scoring_task(in.subject, in.camera, 1));
   // Random weights may give no similarity above 0, and so no belief: equal names score here.
   const ClassTable& classes = in.subject.map->classes;
@@ -98,7 +98,7 @@ double worst_probability(const Floor& floor,
 
 /// What `semview localize --global dense` computes when it begins.
 Status dense_posterior(const Circumstances& in, Row& row) {
-  SEMVIEW_TRY(const Floor floor, open_floor(in));
+  SEMVIEW_TRY(const Floor floor, open_floor(in, row));
   SEMVIEW_TRY(const std::vector<Floor::Sums> sums, floor.sums());
   similarity::SimilarityScoreSource source(
       floor.site->views(), in.subject.map->classes, floor.task.weights, floor.site->pool());
@@ -121,7 +121,7 @@ Status dense_posterior(const Circumstances& in, Row& row) {
 
 /// What `semview heatmap` and `Heatmap` of the protocol compute.
 Status heat_map(const Circumstances& in, Row& row) {
-  SEMVIEW_TRY(const Floor floor, open_floor(in));
+  SEMVIEW_TRY(const Floor floor, open_floor(in, row));
   SEMVIEW_TRY(const std::vector<Floor::Sums> sums, floor.sums());
   const auto compute = [&] {
     return similarity::heat_map(floor.task.prepared,

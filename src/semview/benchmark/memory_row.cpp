@@ -42,7 +42,7 @@ Status memory(const Circumstances& in, Row& row) {
     return {};
   }
   const double before = status_mib("VmRSS");
-  SEMVIEW_TRY(const auto site, service::Site::open(map, config_of(in)));
+  SEMVIEW_TRY(const auto site, open_site(map, config_of(in), row));
   SEMVIEW_TRY_STATUS(site->views().views(cells).map([](auto&&) {}));
   const double peak = status_mib("VmHWM");
   Finding found;

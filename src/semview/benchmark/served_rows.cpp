@@ -24,12 +24,12 @@ struct BothSides {
   std::unique_ptr<ServedSite> served;
 };
 
-Result<BothSides> open_both(const Circumstances& in) {
+Result<BothSides> open_both(const Circumstances& in, Row& row) {
   if (!in.serve) return fail(ErrorCode::kUnavailable, "not installed: a server to measure");
   SEMVIEW_TRY(const ScratchFolder folder, ScratchFolder::make());
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   BothSides sides;
-  SEMVIEW_TRY(sides.site, service::Site::open(map, config_of(in)));
+  SEMVIEW_TRY(sides.site, open_site(map, config_of(in), row));
   SEMVIEW_TRY(std::shared_ptr<service::Site> behind, service::Site::open(map, config_of(in)));
   SEMVIEW_TRY(sides.served, in.serve(std::move(behind), in.pool.threads()));
   return sides;
@@ -62,7 +62,7 @@ Contender asking(ViewSource& source, std::span<const CellIndex> cells) {
 
 /// Every cell is asked for once on each side.
 Status cold_view(const Circumstances& in, Row& row) {
-  SEMVIEW_TRY(const BothSides sides, open_both(in));
+  SEMVIEW_TRY(const BothSides sides, open_both(in, row));
   const std::vector<CellIndex> cells = in.subject.sample(in.extent.cold_cells);
   std::vector<double> ours, others;
   for (const CellIndex& cell : cells) {
@@ -87,12 +87,12 @@ Status cold_view(const Circumstances& in, Row& row) {
   row.found = finding_of({timing(ours), timing(others), rounds, TurnsClock::kWall},
                          fmt::format("{} views equal; the first, in brackets the median of all; {}",
                                      cells.size(),
-                                     sides.site->engine().name));
+                                     row.engine));
   return {};
 }
 
 Status warm_view(const Circumstances& in, Row& row) {
-  SEMVIEW_TRY(const BothSides sides, open_both(in));
+  SEMVIEW_TRY(const BothSides sides, open_both(in, row));
   const std::vector<CellIndex> cell = in.subject.sample(1);
   SEMVIEW_TRY_STATUS(check_equal_views(sides, cell));
   row.found = finding_of(take_turns(asking(sides.served->views(), cell),
@@ -105,7 +105,7 @@ Status warm_view(const Circumstances& in, Row& row) {
 
 /// One request for many views beside a request for each: MB/s.
 Status many_views(const Circumstances& in, Row& row) {
-  SEMVIEW_TRY(const BothSides sides, open_both(in));
+  SEMVIEW_TRY(const BothSides sides, open_both(in, row));
   const std::vector<CellIndex> cells = in.subject.sample(in.extent.served_cells);
   SEMVIEW_TRY_STATUS(check_equal_views(sides, cells));
   ViewSource& source = sides.served->views();
@@ -153,7 +153,7 @@ ScoreRequest compass_of(const std::vector<CellIndex>& cells, std::size_t count) 
 }
 
 Status compass(const Circumstances& in, Row& row) {
-  SEMVIEW_TRY(const BothSides sides, open_both(in));
+  SEMVIEW_TRY(const BothSides sides, open_both(in, row));
   SEMVIEW_TRY(const ScoringTask task, scoring_task(in.subject, in.camera, 1));
   SEMVIEW_TRY(const auto served, sides.served->scores(task.weights));
   similarity::SimilarityScoreSource local(

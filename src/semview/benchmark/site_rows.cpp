@@ -59,7 +59,7 @@ Status precompute(const Circumstances& in, Row& row, const std::string& engine, 
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   service::SiteConfig config = config_of(in);
   config.engine = engine;
-  SEMVIEW_TRY(const auto site, service::Site::open(map, config));
+  SEMVIEW_TRY(const auto site, open_site(map, config, row));
   SEMVIEW_TRY(service::PrecomputePlan plan, service::plan_precompute(*site, {}));
   thin_out(plan.cells, cells);
   std::vector<double> storing, casting;
@@ -78,7 +78,7 @@ Status precompute(const Circumstances& in, Row& row, const std::string& engine, 
   const Timing ours{storing.front(), storing[storing.size() / 2]};
   const Timing other{casting.front(), casting[casting.size() / 2]};
   row.found = finding_of({ours, other, in.extent.turns.fewest_rounds, TurnsClock::kWall},
-                         fmt::format("stored views equal cast ones; {}", site->engine().name));
+                         fmt::format("stored views equal cast ones; {}", row.engine));
   return {};
 }
 
@@ -96,12 +96,10 @@ Status ready(const Circumstances& in, Row& row) {
   SEMVIEW_TRY(const std::filesystem::path map, bundle_of(in.subject, folder));
   std::vector<double> open_s;
   double cold_s = 0.0, warm_s = 0.0;
-  std::string engine;
   for (int round = 0; round < in.extent.turns.fewest_rounds; ++round) {
     const double begin_s = now_s();
-    SEMVIEW_TRY(const auto site, service::Site::open(map, config_of(in)));
+    SEMVIEW_TRY(const auto site, open_site(map, config_of(in), row));
     open_s.push_back(now_s() - begin_s);
-    engine = site->engine().name;
     const std::vector<CellIndex> cell = in.subject.sample(1);
     for (double* seconds : {&cold_s, &warm_s}) {
       const double asked_s = now_s();
@@ -115,8 +113,10 @@ Status ready(const Circumstances& in, Row& row) {
   found.ours = open_s.front();
   found.ours_median = open_s[open_s.size() / 2];
   found.clock = std::string(name_of(TurnsClock::kWall));
-  found.agreement = fmt::format(
-      "{}; then the first view in {}, again in {}", engine, shown(cold_s, "s"), shown(warm_s, "s"));
+  found.agreement = fmt::format("{}; then the first view in {}, again in {}",
+                                row.engine,
+                                shown(cold_s, "s"),
+                                shown(warm_s, "s"));
   row.found = std::move(found);
   return {};
 }

@@ -26,4 +26,13 @@ service::SiteConfig config_of(const Circumstances& in) {
   return config;
 }
 
+Result<std::shared_ptr<service::Site>> open_site(const std::filesystem::path& map,
+                                                 const service::SiteConfig& config,
+                                                 Row& row) {
+  SEMVIEW_TRY(std::shared_ptr<service::Site> site, service::Site::open(map, config));
+  row.engine = site->engine().name;
+  row.engine_reason = site->engine().reason;
+  return site;
+}
+
 }  // namespace semview::benchmark::detail

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "semview/benchmark/measurement.hpp"
 #include "semview/benchmark/scratch_folder.hpp"
@@ -15,5 +16,11 @@ namespace semview::benchmark::detail {
 Result<std::filesystem::path> bundle_of(const Subject& subject, const ScratchFolder& folder);
 
 service::SiteConfig config_of(const Circumstances& in);
+
+/// Opens a map for a row, which tells from then on what engine casts there.
+/// @errors those of `service::Site::open`
+Result<std::shared_ptr<service::Site>> open_site(const std::filesystem::path& map,
+                                                 const service::SiteConfig& config,
+                                                 Row& row);
 
 }  // namespace semview::benchmark::detail

@@ -42,6 +42,8 @@ struct Row {
   std::string subject;  ///< the plan
   std::string size;     ///< of a panorama, or other circumstances
   int threads = 1;
+  std::string engine = {};  ///< of rows that open a map as the service does: what casts its views
+  std::string engine_reason = {};  ///< and why it does
   Goal goal;
   std::optional<Finding> found;  ///< none: `note` says why
   std::string note;
