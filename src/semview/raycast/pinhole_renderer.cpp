@@ -72,22 +72,6 @@ class PinholeRays {
   std::vector<Part> columns_, rows_;
 };
 
-template <typename CastImage>
-PinholeView render(const Scene& scene, const PinholeRequest& request, const CastImage& cast_image) {
-  const Eigen::Vector3f eye = request.map_from_camera.translation().cast<float>();
-  const RayCaster caster(scene, eye.x(), eye.y(), eye.z());
-  const PinholeCamera& camera = request.camera;
-  PinholeView view{LabelImage(camera.rows, camera.columns),
-                   RangeImage(camera.rows, camera.columns)};
-  const PinholeRays rays(request);
-  const auto store = [&](int row, int column, const RayHit& hit) {
-    view.labels.at(row, column) = hit.label;
-    view.depths_m.at(row, column) = rays.depth(row, column, hit.parameter);
-  };
-  cast_image(caster, camera.rows, camera.columns, rays, store);
-  return view;
-}
-
 }  // namespace
 
 Status validate(const PinholeRequest& request) {
@@ -131,11 +115,18 @@ Status validate(const PinholeRequest& request) {
 }
 
 PinholeView render_pinhole(const Scene& scene, const PinholeRequest& request) {
-  return render(scene, request, [](const auto&... image) { cast_tiles(image...); });
-}
-
-PinholeView render_pinhole_single_rays(const Scene& scene, const PinholeRequest& request) {
-  return render(scene, request, [](const auto&... image) { cast_singly(image...); });
+  const Eigen::Vector3f eye = request.map_from_camera.translation().cast<float>();
+  const RayCaster caster(scene, eye.x(), eye.y(), eye.z());
+  const PinholeCamera& camera = request.camera;
+  PinholeView view{LabelImage(camera.rows, camera.columns),
+                   RangeImage(camera.rows, camera.columns)};
+  const PinholeRays rays(request);
+  const auto store = [&](int row, int column, const RayHit& hit) {
+    view.labels.at(row, column) = hit.label;
+    view.depths_m.at(row, column) = rays.depth(row, column, hit.parameter);
+  };
+  cast_tiles(caster, camera.rows, camera.columns, rays, store);
+  return view;
 }
 
 }  // namespace semview::raycast

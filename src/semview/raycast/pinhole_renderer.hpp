@@ -38,7 +38,4 @@ Status validate(const PinholeRequest& request);
 /// @threads Safe to call from several threads on one scene.
 PinholeView render_pinhole(const Scene& scene, const PinholeRequest& request);
 
-/// `render_pinhole` ray by ray: the twin that tests compare packets with.
-PinholeView render_pinhole_single_rays(const Scene& scene, const PinholeRequest& request);
-
 }  // namespace semview::raycast
