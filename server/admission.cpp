@@ -24,8 +24,8 @@ double ms_of(Duration time) { return std::chrono::duration<double, std::milli>(t
 }  // namespace
 
 Status check_wait(std::string_view method, Duration expected_wait, Duration budget) {
-  const int waits = method == "SetObservation" ? 2 : 1;
-  if (2 * waits * expected_wait <= budget) return {};
+  const int share = method == "SetObservation" ? 12 : 2;
+  if (share * expected_wait <= budget) return {};
   return busy(
       fmt::format("{}: work of about {:.0f} ms comes first, too much for a budget of {:.0f} ms",
                   method,

@@ -15,11 +15,14 @@
 
 namespace semview::server {
 
-/// Will a request be begun soon enough to end within its budget, as far as can be told?
+/// Will a request be done within its budget, as far as can be told?
 ///
-/// Half the budget may pass before: the work takes time too, and the expectation errs. Of that of a
-/// SetObservation a quarter: nobody has use for it without the Score that follows, and that waits
-/// as long once more.
+/// Half the budget may pass before it is begun: the work takes time too, and the expectation errs.
+/// Of that of a SetObservation a twelfth: its Score is still to come, and others come meanwhile who
+/// share the workers with it. A robot that is let in and is then too late has taken the time of one
+/// that would not have been: with a quarter, an overloaded server answers almost nobody in time,
+/// with a twelfth as many as it can (overload_simulation_test.cpp).
+/// @param expected_wait  `Dispatcher::expected_wait`.
 /// @errors kResourceExhausted: no.
 Status check_wait(std::string_view method, Duration expected_wait, Duration budget);
 

@@ -125,7 +125,7 @@ Dispatcher::~Dispatcher() {
 
 void Dispatcher::submit(Request request, std::uint64_t cells, Reply reply) {
   const std::string client = request.client;
-  const Work expected = costs_.of_request(client, request.method);
+  const Work expected = costs_.of_purpose(client, request.method);
   const auto run = std::make_shared<Run>(*this, std::move(request), std::move(reply));
   queue_.push(client, {cells, [run, cells] { run->make_plan(cells); }, expected});
 }
@@ -135,7 +135,7 @@ Duration Dispatcher::expected_wait(const std::string& client, std::uint64_t cell
 }
 
 Duration Dispatcher::expected_wait(const std::string& client, const std::string& method) const {
-  return expected_wait(client, costs_.of_request(client, method).cells);
+  return expected_wait(client, costs_.of_purpose(client, method).cells);
 }
 
 void Dispatcher::count(const std::string& client_name, std::uint64_t cells) {

@@ -59,7 +59,8 @@ class Dispatcher {
   /// How long it is expected to take until the workers turn to the last of `cells` more of this
   /// client. @threads any
   Duration expected_wait(const std::string& client, std::uint64_t cells) const;
-  /// The same of a request that nobody has looked at yet.
+  /// The same of a request that nobody has looked at yet; of a SetObservation until the Score that
+  /// follows is done, without which nobody has use for it.
   Duration expected_wait(const std::string& client, const std::string& method) const;
 
   /// Cells of finished chunks and plans by client name; the names beyond a thousand are together

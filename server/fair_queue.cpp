@@ -34,24 +34,23 @@ std::optional<Task> FairQueue::pop() {
   const std::string name = first->first.second;
   Client& client = *first->second;
   turns_.erase(first);
-  now_ = client.served;
   Task task = std::move(client.tasks.front());
+  const auto cells = static_cast<double>(task.cells);
+  // Who is ahead has had this share already, and counts among those who divide it.
+  const auto sharing = static_cast<double>(clients_.size() + ahead_.size());
+  now_ = std::max(now_ + cells / sharing, client.served);
+  std::erase_if(ahead_, [this](const auto& entry) { return entry.second <= now_; });
   client.tasks.pop_front();
   queued_cells_ -= task.cells;
   client.expected -= task.expected;
-  client.served += task.cells;
+  client.served += cells;
   if (!client.tasks.empty()) {
     turns_.emplace(std::pair(client.served, name), &client);
     return task;
   }
-  ahead_[name] = client.served;
+  if (client.served > now_) ahead_[name] = client.served;
   clients_.erase(name);
-  if (turns_.empty()) {
-    // Nobody waits: nobody owes anything.
-    ahead_.clear();
-  } else {
-    std::erase_if(ahead_, [this](const auto& entry) { return entry.second <= now_; });
-  }
+  if (turns_.empty()) ahead_.clear();  // nobody waits: nobody owes anything
   return task;
 }
 
@@ -71,25 +70,27 @@ std::uint64_t FairQueue::queued_cells() const {
 Duration FairQueue::expected_wait(const std::string& client, std::uint64_t cells) const {
   const std::lock_guard lock(mutex_);
   const auto own = clients_.find(client);
-  const std::uint64_t begun = own == clients_.end()
-                                  ? served_at_arrival(client)
-                                  : own->second.served + own->second.expected.cells;
-  const std::uint64_t last = begun + cells;
+  double last = static_cast<double>(cells);
+  if (own == clients_.end()) {
+    last += served_at_arrival(client);
+  } else {
+    last += own->second.served + static_cast<double>(own->second.expected.cells);
+  }
   Duration wait{};
   for (const auto& [name, other] : clients_) {
     const Work& work = other.expected;
-    const std::uint64_t share = last > other.served ? last - other.served : 0;
-    if (name == client || share >= work.cells) {
+    const double share = std::max(last - other.served, 0.0);
+    const auto all = static_cast<double>(work.cells);
+    if (name == client || share >= all) {
       wait += work.time;
     } else {
-      const double part = static_cast<double>(share) / static_cast<double>(work.cells);
-      wait += std::chrono::duration_cast<Duration>(part * work.time);
+      wait += std::chrono::duration_cast<Duration>(share / all * work.time);
     }
   }
   return wait;
 }
 
-std::uint64_t FairQueue::served_at_arrival(const std::string& client) const {
+double FairQueue::served_at_arrival(const std::string& client) const {
   const auto found = ahead_.find(client);
   return found == ahead_.end() ? now_ : std::max(now_, found->second);
 }

@@ -29,7 +29,8 @@ struct Task {
 /// Each client has a first-in-first-out queue. `pop` takes the next task of the client that has had
 /// the least work; one that comes back from idling has no credit for the time away. So a client
 /// with one small request waits for one task of each other client at most, whatever they have
-/// queued.
+/// queued; and what waits is not overtaken by ever more newcomers: they begin where a client would
+/// be that had been there and had its share.
 /// @threads All members from several threads at once.
 class FairQueue {
  public:
@@ -52,22 +53,22 @@ class FairQueue {
  private:
   struct Client {
     std::deque<Task> tasks;
-    Work expected;             ///< of `tasks`
-    std::uint64_t served = 0;  ///< virtual time: cells given out, level with others at arrival
+    Work expected;        ///< of `tasks`
+    double served = 0.0;  ///< virtual time: cells given out, level with others at arrival
   };
   /// (served, client): the first is next.
-  using Turns = std::map<std::pair<std::uint64_t, std::string>, Client*>;
+  using Turns = std::map<std::pair<double, std::string>, Client*>;
 
   /// What `served` of a client is that now comes with its first task.
-  std::uint64_t served_at_arrival(const std::string& client) const;
+  double served_at_arrival(const std::string& client) const;
 
   mutable std::mutex mutex_;
   std::condition_variable has_task_;
   std::unordered_map<std::string, Client> clients_;  ///< those with a task waiting
   Turns turns_;
-  std::uint64_t now_ = 0;  ///< `served` of the client that was last in turn
+  double now_ = 0.0;  ///< `served` of one that always has tasks waiting: its share of all cells
   /// `served` of clients whose queue ran empty, while it is ahead of `now_`.
-  std::unordered_map<std::string, std::uint64_t> ahead_;
+  std::unordered_map<std::string, double> ahead_;
   std::uint64_t queued_cells_ = 0;
   bool closed_ = false;
 };

@@ -66,6 +66,12 @@ Work WorkCosts::of_request(const std::string& client, const std::string& method)
               (cost->planning_s + cost->cells * cost->cell_s()) / n);
 }
 
+Work WorkCosts::of_purpose(const std::string& client, const std::string& method) const {
+  Work work = of_request(client, method);
+  if (method == "SetObservation") work += of_request(client, "Score");
+  return work;
+}
+
 Work WorkCosts::of_part(const std::string& client,
                         const std::string& method,
                         std::uint64_t cells) const {

@@ -40,6 +40,8 @@ class WorkCosts {
   /// A request whose body nobody has looked at yet: planning and cells; nothing if none was ever
   /// planned.
   Work of_request(const std::string& client, const std::string& method) const;
+  /// The same, for a SetObservation with the Score that follows: nobody has use for one alone.
+  Work of_purpose(const std::string& client, const std::string& method) const;
   /// So many of its cells.
   Work of_part(const std::string& client, const std::string& method, std::uint64_t cells) const;
 

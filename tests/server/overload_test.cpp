@@ -135,8 +135,8 @@ TEST(CheckWaitTest, AnObservationLeavesTimeForItsScores) {
   EXPECT_TRUE(check_wait("Score", milliseconds(500), kBudget));
   EXPECT_EQ(check_wait("Score", milliseconds(501), kBudget).error().code,
             ErrorCode::kResourceExhausted);
-  EXPECT_TRUE(check_wait("SetObservation", milliseconds(250), kBudget));
-  EXPECT_FALSE(check_wait("SetObservation", milliseconds(251), kBudget));
+  EXPECT_TRUE(check_wait("SetObservation", milliseconds(83), kBudget));
+  EXPECT_FALSE(check_wait("SetObservation", milliseconds(84), kBudget));
   EXPECT_TRUE(check_wait("Score", Duration::zero(), milliseconds(1)));
 }
 
