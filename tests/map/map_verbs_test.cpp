@@ -66,6 +66,26 @@ TEST_F(MapVerbsTest, InfoNamesWhatAServerNeeds) {
   EXPECT_EQ(info["engine"], semview::testing::plan_engine());
 }
 
+TEST_F(MapVerbsTest, ObjectsAreCountedAndTheirMistakesNameTheFeature) {
+  const std::string object =
+      R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+          "properties": {"class": "table", "min_height": 0.4}, "geometry": {"type": "Polygon",
+          "coordinates": [[[-0.5, 2.2], [-0.2, 2.2], [-0.2, 2.4], [-0.5, 2.4], [-0.5, 2.2]]]}}]})";
+  write_bundle(folder_ / "a",
+               room(),
+               replaced(map_yaml(), "  outside:", "  objects: objects.geojson\n  outside:"));
+  testing::write_text(folder_ / "a/objects.geojson", object);
+  const Outcome info = semview_map("info --json " + at("a"));
+  ASSERT_EQ(info.exit_code, 0) << info.output;
+  EXPECT_EQ(json::parse(info.output)["objects"], 1);
+  EXPECT_EQ(json::parse(info.output)["object_profiles"], 1);
+
+  testing::write_text(folder_ / "a/objects.geojson", replaced(object, "0.4", "4"));
+  const Outcome check = semview_map("check --json " + at("a"));
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_EQ(json::parse(check.output)[0]["problems"][0]["feature"], 1);
+}
+
 TEST_F(MapVerbsTest, InfoOfAMeshMapCountsFreeCells) {
   const Outcome run = semview_map("info --json " SEMVIEW_SOURCE_DIR "/maps/duplex_building");
   ASSERT_EQ(run.exit_code, 0) << run.output;
