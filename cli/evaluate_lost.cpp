@@ -20,6 +20,7 @@
 #include "semview/io/text_file.hpp"
 #include "semview/similarity/weight_matrix.hpp"
 #include "verb.hpp"
+#include "world_list.hpp"
 
 namespace semview::cli {
 namespace {
@@ -31,7 +32,7 @@ const std::vector<std::uint64_t> kTrainingWorlds{101, 102, 103, 104, 105, 106};
 const std::vector<double> kTrainingNoise{0.2, 0.3, 0.5};
 
 struct Options {
-  std::vector<std::uint64_t> worlds{1, 2, 3, 4, 5, 6};
+  std::string worlds = "1..6";
   std::vector<double> noise{0.3, 0.7};
   int runs = 2;
   std::uint64_t seed = 1;
@@ -77,9 +78,10 @@ void print_quality(const std::string& title, const LostQuality& quality) {
 }
 
 /// Training worlds teach, all others judge: a world that did both would judge itself.
-Status check_worlds(const Options& options) {
-  if (options.learn) return {};
-  for (const std::uint64_t world : options.worlds) {
+Result<std::vector<std::uint64_t>> worlds_of(const Options& options) {
+  if (options.learn) return kTrainingWorlds;
+  SEMVIEW_TRY(std::vector<std::uint64_t> worlds, parse_worlds(options.worlds));
+  for (const std::uint64_t world : worlds) {
     if (std::ranges::find(kTrainingWorlds, world) == kTrainingWorlds.end()) continue;
     return fail(Error{ErrorCode::kInvalidArgument,
                       fmt::format("--worlds {}: the model was learned there, expected others than "
@@ -87,18 +89,18 @@ Status check_worlds(const Options& options) {
                                   world),
                       "--worlds"});
   }
-  return {};
+  return worlds;
 }
 
 Status evaluate_lost(const Options& options) {
-  SEMVIEW_TRY_STATUS(check_worlds(options));
+  SEMVIEW_TRY(std::vector<std::uint64_t> worlds, worlds_of(options));
   SEMVIEW_TRY(similarity::WeightMatrix weights,
               similarity::parse_weight_matrix(std::string(paper2017::kHandMatrix),
                                               "paper2017_ade20k150.csv"));
   const std::filesystem::path out(options.out);
   std::error_code failed;  // writing into it tells
   std::filesystem::create_directories(out, failed);
-  paper2017::LostSettings settings{options.learn ? kTrainingWorlds : options.worlds,
+  paper2017::LostSettings settings{std::move(worlds),
                                    options.learn ? kTrainingNoise : options.noise,
                                    options.runs,
                                    options.seed,
@@ -135,7 +137,7 @@ void add_evaluate_lost_verb(CLI::App& evaluate, int& exit_code) {
       "alarms; writes lost_stops.csv and reliability.svg.");
   const auto options = std::make_shared<Options>();
   verb->add_option("--worlds", options->worlds, "World seeds")
-      ->delimiter(',')
+      ->type_name("A..B,C,...")
       ->capture_default_str();
   verb->add_option("--noise", options->noise, "Levels of segmentation noise")
       ->delimiter(',')

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview evaluate paper2017`.
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,6 +25,7 @@
 #include "site_options.hpp"
 #include "starts_option.hpp"
 #include "verb.hpp"
+#include "world_list.hpp"
 
 namespace semview::cli {
 namespace {
@@ -40,33 +39,6 @@ struct Options {
   std::string export_to;
   std::vector<std::string> estimates;
 };
-
-/// `1..6` or `3`.
-Result<std::vector<std::uint64_t>> parse_worlds(const std::string& text) {
-  const auto number = [](std::string_view digits) -> std::optional<std::uint64_t> {
-    std::uint64_t value = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto [stop, status] = std::from_chars(digits.data(), end, value);
-    if (status != std::errc() || stop != end) return std::nullopt;
-    return value;
-  };
-  const std::size_t dots = text.find("..");
-  const std::optional<std::uint64_t> first = number(std::string_view(text).substr(0, dots));
-  const std::optional<std::uint64_t> last =
-      dots == std::string::npos ? first : number(std::string_view(text).substr(dots + 2));
-  constexpr std::uint64_t kMost = 100;
-  if (!first || !last || *last < *first || *last - *first >= kMost) {
-    return fail(Error{ErrorCode::kInvalidArgument,
-                      fmt::format("--worlds {}: expected a seed or a range such as 1..6 of at most "
-                                  "{} worlds",
-                                  text,
-                                  kMost),
-                      "--worlds"});
-  }
-  std::vector<std::uint64_t> worlds;
-  for (std::uint64_t world = *first; world <= *last; ++world) worlds.push_back(world);
-  return worlds;
-}
 
 void show_progress(const paper2017::ExperimentProgress& progress) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -107,9 +79,8 @@ std::string command_of(const paper2017::ExperimentConfig& config) {
     }
   };
   list("--rows", config.rows);
-  command += fmt::format(" --worlds {}..{} --runs {} --seed {} --engine {}",
-                         config.worlds.front(),
-                         config.worlds.back(),
+  command += fmt::format(" --worlds {} --runs {} --seed {} --engine {}",
+                         world_list(config.worlds),
                          config.runs,
                          config.seed,
                          config.engine);
@@ -194,7 +165,7 @@ void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
   verb->add_option("--worlds",
                    options->worlds,
                    "World seeds: 1..100 for results, 201..205 for choosing settings; default: 1..6")
-      ->type_name("A..B");
+      ->type_name("A..B,C,...");
   verb->add_option("--runs", options->experiment.runs, "Filter seeds a world")
       ->capture_default_str();
   verb->add_option("--seed", options->experiment.seed, "Seed of the filters")

@@ -21,6 +21,12 @@ void add_map_verb(CLI::App& app, int& exit_code) {
   add_map_export(*map, exit_code);
 }
 
+void add_nearest_colour(CLI::App& verb, map::LoadOptions& load) {
+  verb.add_flag("--nearest-colour",
+                load.nearest_colour,
+                "Take unknown colours to be the nearest class's, for smoothed drawings");
+}
+
 Result<map::CellGrid> cell_grid_of(const map::SemanticMap& map, double eye_height_m) {
   if (const map::ColumnMap* columns = map.columns()) return build_cell_grid(*columns, eye_height_m);
   SEMVIEW_TRY(const raycast::Scene scene, raycast::Scene::build(map.mesh()->mesh));

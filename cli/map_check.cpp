@@ -111,9 +111,7 @@ void add_map_check(CLI::App& map, int& exit_code) {
                    "Metres above the ground; slabs below it block free space")
       ->check(CLI::Range(0.05, 100.0))
       ->capture_default_str();
-  verb->add_flag("--nearest-colour",
-                 options->check.load.nearest_colour,
-                 "Take unknown colours to be the nearest class's, for smoothed drawings");
+  add_nearest_colour(*verb, options->check.load);
   verb->add_flag("--json", options->json, "Print the report as JSON");
   verb->footer("Example: semview map check maps/tutorial maps/duplex_level1");
   verb->callback([options, &exit_code] { exit_code = check_maps(*options); });

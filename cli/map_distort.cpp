@@ -58,24 +58,20 @@ Status distort(const Options& options) {
   return write(options, affine);
 }
 
-/// The first object that has numbers a, b and k, wherever it is in the answer.
+/// Where `semview localize --json` says how the map is drawn.
+const nlohmann::json::json_pointer kMapOfLast("/last/map");
+
 std::optional<MapAffine> find_affine(const nlohmann::json& json) {
-  if (!json.is_structured()) return {};
-  if (json.is_object()) {
-    const auto number = [&](const char* key) {
-      const auto entry = json.find(key);
-      return entry != json.end() && entry->is_number() ? std::optional(entry->get<double>())
-                                                       : std::nullopt;
-    };
-    const auto a = number("a");
-    const auto b = number("b");
-    const auto k = number("k");
-    if (a && b && k) return MapAffine{*a, *b, *k};
-  }
-  for (const nlohmann::json& child : json) {
-    if (const auto affine = find_affine(child)) return affine;
-  }
-  return {};
+  const auto number = [&json](const char* key) -> std::optional<double> {
+    const auto at = kMapOfLast / key;
+    if (!json.contains(at) || !json.at(at).is_number()) return {};
+    return json.at(at).get<double>();
+  };
+  const auto a = number("scale_x");
+  const auto b = number("scale_y");
+  const auto k = number("shear");
+  if (!a || !b || !k) return {};
+  return MapAffine{*a, *b, *k};
 }
 
 Result<MapAffine> read_affine(const std::string& text) {
@@ -90,9 +86,10 @@ Result<MapAffine> read_affine(const std::string& text) {
   if (affine) return *affine;
   return fail(Error{ErrorCode::kInvalidArgument,
                     fmt::format("{}: {}, expected the JSON of `semview localize --json "
-                                "--estimate-map-affine` with numbers a, b and k",
+                                "--estimate-map-affine` with scale_x, scale_y and shear in "
+                                "last.map",
                                 text,
-                                json.is_discarded() ? "is not JSON" : "has no map affine"),
+                                json.is_discarded() ? "is not JSON" : "does not say them"),
                     "--affine"});
 }
 
@@ -108,9 +105,7 @@ Status rectify(const Options& options) {
 void add_common(CLI::App& verb, Options& options) {
   verb.add_option("MAP", options.map, "Map folder or map.yaml of a drawn plan")->required();
   verb.add_option("-o,--output", options.output, "Folder to make")->type_name("DIR")->required();
-  verb.add_flag("--nearest-colour",
-                options.load.nearest_colour,
-                "Take unknown colours to be the nearest class's");
+  add_nearest_colour(verb, options.load);
 }
 
 }  // namespace

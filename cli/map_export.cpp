@@ -50,9 +50,7 @@ void add_map_export(CLI::App& map, int& exit_code) {
   const auto options = std::make_shared<Options>();
   verb->add_option("MAP", options->map, "Map folder, map.yaml or .glb")->required();
   verb->add_option("OUT", options->output, "The .glb file to write")->required();
-  verb->add_flag("--nearest-colour",
-                 options->load.nearest_colour,
-                 "Take unknown colours to be the nearest class's");
+  add_nearest_colour(*verb, options->load);
   verb->footer("Example: semview map export maps/duplex_level1 duplex.glb");
   verb->callback([options, &exit_code] { exit_code = report(export_map(*options)); });
 }

@@ -200,9 +200,7 @@ void add_map_info(CLI::App& map, int& exit_code) {
   verb->add_option("--eye-height", options->eye_height_m, "Metres above the ground")
       ->check(CLI::Range(0.05, 100.0))
       ->capture_default_str();
-  verb->add_flag("--nearest-colour",
-                 options->load.nearest_colour,
-                 "Take unknown colours to be the nearest class's");
+  add_nearest_colour(*verb, options->load);
   verb->add_flag("--json", options->json, "Print it as JSON");
   verb->footer("Example: semview map info maps/duplex_level1 --json");
   verb->callback([options, &exit_code] { exit_code = report(show(*options)); });

@@ -77,9 +77,7 @@ Status occupancy(const Options& options) {
 
 void add_common(CLI::App& verb, Options& options) {
   verb.add_option("MAP", options.map, "Map folder or map.yaml")->required();
-  verb.add_flag("--nearest-colour",
-                options.load.nearest_colour,
-                "Take unknown colours to be the nearest class's");
+  add_nearest_colour(verb, options.load);
 }
 
 }  // namespace

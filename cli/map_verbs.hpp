@@ -20,6 +20,9 @@ void add_map_import(CLI::App& map, int& exit_code);
 void add_map_distort(CLI::App& map, int& exit_code);  ///< distort, rectify
 void add_map_export(CLI::App& map, int& exit_code);
 
+/// Adds --nearest-colour.
+void add_nearest_colour(CLI::App& verb, map::LoadOptions& load);
+
 /// The grid of any map: from its columns, or by casting rays at its mesh.
 Result<map::CellGrid> cell_grid_of(const map::SemanticMap& map, double eye_height_m);
 

@@ -64,15 +64,8 @@ void add_ranges_option(CLI::App& verb, SiteOptions& options) {
                 "Store the views with ranges, for a semview-server --ranges; scores need none");
 }
 
-Status check_no_site_options(const CLI::App& verb) {
-  for (const char* option : {"--engine",
-                             "--eye-height",
-                             "--columns",
-                             "--rows",
-                             "--elevation",
-                             "--cache",
-                             "--cache-limit",
-                             "--nearest-colour"}) {
+Status check_left_to_server(const CLI::App& verb, std::initializer_list<const char*> options) {
+  for (const char* option : options) {
     if (verb.get_option(option)->count() == 0) continue;
     return fail(
         Error{ErrorCode::kInvalidArgument,
@@ -80,6 +73,18 @@ Status check_no_site_options(const CLI::App& verb) {
               option});
   }
   return {};
+}
+
+Status check_no_site_options(const CLI::App& verb) {
+  return check_left_to_server(verb,
+                              {"--engine",
+                               "--eye-height",
+                               "--columns",
+                               "--rows",
+                               "--elevation",
+                               "--cache",
+                               "--cache-limit",
+                               "--nearest-colour"});
 }
 
 Result<service::SiteConfig> site_config(const SiteOptions& options) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <string>
 
@@ -40,6 +41,10 @@ void add_engine_option(CLI::App& verb, std::string& engine);
 
 /// Adds --ranges, where views of cells are asked for their ranges.
 void add_ranges_option(CLI::App& verb, SiteOptions& options);
+
+/// Where `verb` asks a server: none of `options` was given.
+/// @errors kInvalidArgument, with the option as the field.
+Status check_left_to_server(const CLI::App& verb, std::initializer_list<const char*> options);
 
 /// Where `verb` asks a server: none of the options that are the server's own choice was given.
 /// @errors kInvalidArgument, with the option as the field.

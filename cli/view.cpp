@@ -161,18 +161,6 @@ Result<Seen> see_there(const Options& options, const Pose2& pose) {
   return seen;
 }
 
-/// With a server its own choices are left to it.
-Status check_server_options(const CLI::App& verb) {
-  for (const char* option : {"--engine", "--threads", "--nearest-colour"}) {
-    if (verb.get_option(option)->count() == 0) continue;
-    return fail(
-        Error{ErrorCode::kInvalidArgument,
-              fmt::format("{}: is the server's own choice; leave it out with --server", option),
-              option});
-  }
-  return {};
-}
-
 /// The rays of the view's pixels: x ahead, z up.
 Result<picture::RayOfPixel> rays_of(const Options& options, const View& view) {
   if (view.panorama) {
@@ -219,7 +207,9 @@ Status write_files(const Options& options, const Pose2& pose, const Seen& seen) 
 }
 
 Status show(const CLI::App& verb, const Options& options) {
-  if (!options.server.empty()) SEMVIEW_TRY_STATUS(check_server_options(verb));
+  if (!options.server.empty()) {
+    SEMVIEW_TRY_STATUS(check_left_to_server(verb, {"--engine", "--threads", "--nearest-colour"}));
+  }
   SEMVIEW_TRY(const Pose2 pose, read_pose(options));
   for (const std::string* file : {&options.labels_file,
                                   &options.range_file,

@@ -94,6 +94,19 @@ TEST_F(UsageTest, WholeNumbersFromZeroAreNoOthers) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "log"));
 }
 
+TEST_F(UsageTest, WorldsAreListedAlikeInEveryExperiment) {
+  for (const char* const experiment : {"lost", "paper2017"}) {
+    for (const std::string bad : {"6..1", "1,,2", "1,1", "1..3,2", "x", "1..", "1..200"}) {
+      expect_usage({"evaluate", experiment, "--worlds", bad, "--out", file("out")},
+                   "--worlds " + bad + ": expected seeds or ranges such as 1,2,3 or 1..6");
+    }
+  }
+  for (const char* const list : {"1..3,101", "3,100..102"}) {
+    expect_usage({"evaluate", "lost", "--worlds", list, "--out", file("out")},
+                 "--worlds 101: the model was learned there");
+  }
+}
+
 TEST_F(UsageTest, OptionsWithoutEffectAreRefused) {
   const std::string pinhole = "525,525,320,240,640,480";
   expect_usage({"view", kMap, "--pose", "1,-5,0", "--pinhole", pinhole, "--rows", "9"}, "--rows");
