@@ -69,7 +69,9 @@ void add_options(CLI::App& app, CommandLine& line) {
       line.cache_limit,
       "store no more than this many bytes (500M, 20G); default 0: as far as the disk goes");
   app.add_option("--memory", line.memory, "bytes of views kept in memory (default 512M)");
-  app.add_option("--threads", line.threads, "workers (default: one a core)");
+  constexpr int kMostThreads = 1024;  // what service::validate allows
+  app.add_option("--threads", line.threads, "workers (default: one a core)")
+      ->check(CLI::Range(0, kMostThreads));
   app.add_option("--eye-height", line.eye_height_m, "camera above the ground in m (default 1.2)");
   app.add_option("--engine",
                  line.engine,
