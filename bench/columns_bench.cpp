@@ -20,6 +20,7 @@
 #include "semview/raycast/column_painter.hpp"
 #include "semview/raycast/column_renderer.hpp"
 #include "semview/raycast/panorama_renderer.hpp"
+#include "usage.hpp"
 
 namespace semview::raycast {
 namespace {
@@ -184,4 +185,12 @@ int run() {
 }  // namespace
 }  // namespace semview::raycast
 
-int main() { return semview::raycast::run(); }
+int main(int argc, char** argv) {
+  constexpr const char* kUsage =
+      "bench_columns\n"
+      "The columns caster beside Embree's packets on the shipped plans; then its walk on every "
+      "target\n"
+      "that this machine can run, and ray by ray.";
+  if (const auto code = semview::bench::explain(argc, argv, kUsage)) return *code;
+  return semview::raycast::run();
+}

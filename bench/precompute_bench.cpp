@@ -6,6 +6,7 @@
 // reading, but waiting for the disk shows only in the second. Then whole runs are timed by the
 // clock, with one and two threads, each in turn with casting the same cells and keeping nothing.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,6 +28,7 @@
 #include "semview/service/precompute.hpp"
 #include "semview/service/site.hpp"
 #include "semview/view/view_codec.hpp"
+#include "usage.hpp"
 
 namespace semview {
 namespace {
@@ -70,7 +73,7 @@ void cast_with_columns(const raycast::ColumnScene& scene,
 }
 
 /// Whole runs over some cells, each into a new directory.
-int compare_runs(const std::filesystem::path& map, std::size_t threads) {
+Status compare_runs(const std::filesystem::path& map, std::size_t threads) {
   const std::filesystem::path directory =
       std::filesystem::temp_directory_path() / fmt::format("bench_precompute_{}_runs", getpid());
   Part cast{"cast", {}};
@@ -82,16 +85,14 @@ int compare_runs(const std::filesystem::path& map, std::size_t threads) {
     service::SiteConfig config;
     config.threads = threads;
     config.cache_directory = directory;
-    const auto site = service::Site::open(map, config);
-    if (!site) return 1;
-    auto plan = service::plan_precompute(**site, {});
-    if (!plan) return 1;
-    plan->cells.resize(std::min(plan->cells.size(), kRunCells));
-    cast.work = [&] { static_cast<void>((*site)->engine_views().views(plan->cells)); };
-    run.work = [&] { static_cast<void>(service::run_precompute(**site, *plan, {}, {})); };
+    SEMVIEW_TRY(const auto site, service::Site::open(map, config));
+    SEMVIEW_TRY(service::PrecomputePlan plan, service::plan_precompute(*site, {}));
+    plan.cells.resize(std::min(plan.cells.size(), kRunCells));
+    cast.work = [&] { static_cast<void>(site->engine_views().views(plan.cells)); };
+    run.work = [&] { static_cast<void>(service::run_precompute(*site, plan, {}, {})); };
     cast.run();
     run.run();
-    file_bytes = (*site)->tiers().store->file_bytes() / plan->cells.size();
+    file_bytes = site->tiers().store->file_bytes() / plan.cells.size();
   }
   std::filesystem::remove_all(directory, ignored);
   fmt::print(
@@ -102,92 +103,131 @@ int compare_runs(const std::filesystem::path& map, std::size_t threads) {
       static_cast<double>(kRunCells) / run.least_clock_s,
       100 * cast.least_clock_s / run.least_clock_s,
       file_bytes);
-  return 0;
+  return {};
 }
 
-int run(const std::filesystem::path& map) {
+/// Cells spread over the whole map.
+/// @errors kInvalidArgument: it has too few.
+Result<std::vector<CellIndex>> sample_cells(const service::Site& site) {
+  SEMVIEW_TRY(const service::PrecomputePlan plan, service::plan_precompute(site, {}));
+  if (plan.cells.size() < kCells) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format(
+            "{}: {} free cells; expected {} at least", site.id(), plan.cells.size(), kCells));
+  }
+  std::vector<CellIndex> cells;
+  for (std::size_t i = 0; i < kCells; ++i) {
+    cells.push_back(plan.cells[i * plan.cells.size() / kCells]);
+  }
+  return cells;
+}
+
+/// What casting and storing some cells consists of.
+class Precomputing {
+ public:
+  Precomputing(const service::Site& site, cache::LmdbStore& store, std::vector<CellIndex> cells)
+      : site_(site), store_(store), cells_(std::move(cells)) {
+    if (const map::ColumnMap* const plan = site.map().columns()) {
+      columns_.emplace(raycast::ColumnScene::build(*plan));
+    }
+  }
+
+  void run_and_print() {
+    Part cast{"cast", [this] { views_ = site_.engine_views().views(cells_)->views; }};
+    Part columns{"cast with columns", [this] { cast_all_with_columns(); }};
+    Part encode{"encode", [this] { encode_all(); }};
+    Part store{"store, one commit", [this] { store_all(); }};
+    Part decode{"check and decode", [this] { decode_all(); }};
+    const std::array parts{&cast, &columns, &encode, &store, &decode};
+    for (int round = 0; round < kRounds; ++round) {
+      for (Part* part : parts) part->run();
+    }
+    for (const Part* part : parts) {
+      fmt::print("{:<18} {:8.1f} us a view, {:8.1f} by the clock\n",
+                 part->name,
+                 part->least_s / kCells * 1e6,
+                 part->least_clock_s / kCells * 1e6);
+    }
+    const double storing_s = encode.least_s + store.least_s;
+    for (const Part* caster : {&cast, &columns}) {
+      fmt::print("{} with storing reaches {:.0f} % of the caster's rate\n",
+                 caster->name,
+                 100 * caster->least_s / (caster->least_s + storing_s));
+    }
+    std::uint64_t record_bytes = 0;
+    for (const cache::EncodedView& view : encoded_) record_bytes += view.record.size();
+    fmt::print("{} bytes a record\n", record_bytes / kCells);
+  }
+
+ private:
+  void cast_all_with_columns() {
+    if (!columns_) return;
+    for (const CellIndex& cell : cells_) cast_with_columns(*columns_, site_, cell);
+  }
+
+  void encode_all() {
+    const Fingerprint name = cache::digest(site_.keyspace());
+    encoded_.clear();
+    for (std::size_t i = 0; i < kCells; ++i) {
+      encoded_.push_back(cache::LmdbStore::encode(name, cells_[i], *views_[i]));
+    }
+  }
+
+  /// As another version each round: the same bytes again would not be written.
+  void store_all() {
+    cache::Keyspace fresh = site_.keyspace();
+    fresh.engine_version += ++stored_;
+    static_cast<void>(store_.put_encoded(fresh, encoded_));
+  }
+
+  void decode_all() {
+    for (const cache::EncodedView& view : encoded_) {
+      const auto record = cache::decode_record(view.record);
+      decoded_runs_ += decode_view(record->codec, record->payload, {360, 90, false})->runs().size();
+    }
+  }
+
+  const service::Site& site_;
+  cache::LmdbStore& store_;
+  const std::vector<CellIndex> cells_;
+  std::optional<raycast::ColumnScene> columns_;
+  std::vector<SharedView> views_;
+  std::vector<cache::EncodedView> encoded_;
+  std::uint32_t stored_ = 0;
+  std::uint64_t decoded_runs_ = 0;
+};
+
+Status run(const std::filesystem::path& map) {
   const std::filesystem::path directory =
       std::filesystem::temp_directory_path() / fmt::format("bench_precompute_{}", getpid());
   service::SiteConfig config;
   config.threads = 1;
-  const auto site = service::Site::open(map, config);
-  if (!site) {
-    fmt::print(stderr, "{}\n", site.error().message);
-    return 1;
+  SEMVIEW_TRY(const auto site, service::Site::open(map, config));
+  SEMVIEW_TRY(std::vector<CellIndex> cells, sample_cells(*site));
+  {
+    SEMVIEW_TRY(const auto store, cache::LmdbStore::open({directory}));
+    Precomputing(*site, *store, std::move(cells)).run_and_print();
   }
-  const auto plan = service::plan_precompute(**site, {});
-  const auto store = cache::LmdbStore::open({directory});
-  if (!plan || !store || plan->cells.size() < kCells) return 1;
-  std::vector<CellIndex> cells;
-  for (std::size_t i = 0; i < kCells; ++i) {
-    cells.push_back(plan->cells[i * plan->cells.size() / kCells]);
-  }
-
-  const cache::Keyspace& keyspace = (*site)->keyspace();
-  const Fingerprint name = cache::digest(keyspace);
-  const map::ColumnMap* const extruded = (*site)->map().columns();
-  const auto columns =
-      extruded == nullptr ? std::nullopt : std::optional(raycast::ColumnScene::build(*extruded));
-  std::vector<SharedView> views;
-  std::vector<cache::EncodedView> encoded;
-  std::uint64_t decoded_runs = 0;
-  std::vector<Part> parts = {
-      {"cast", [&] { views = (*(*site)->engine_views().views(cells)).views; }},
-      {"cast with columns",
-       [&] {
-         if (!columns) return;
-         for (const CellIndex& cell : cells) cast_with_columns(*columns, **site, cell);
-       }},
-      {"encode",
-       [&] {
-         encoded.clear();
-         for (std::size_t i = 0; i < kCells; ++i) {
-           encoded.push_back(cache::LmdbStore::encode(name, cells[i], *views[i]));
-         }
-       }},
-      {"store, one commit",
-       [&] {
-         // Another version each round: the same bytes again would not be written.
-         cache::Keyspace fresh = keyspace;
-         fresh.engine_version += static_cast<std::uint32_t>(decoded_runs) + 1;
-         static_cast<void>((*store)->put_encoded(fresh, encoded));
-       }},
-      {"check and decode",
-       [&] {
-         for (const cache::EncodedView& view : encoded) {
-           const auto record = cache::decode_record(view.record);
-           decoded_runs +=
-               decode_view(record->codec, record->payload, {360, 90, false})->runs().size();
-         }
-       }},
-  };
-  for (int round = 0; round < kRounds; ++round) {
-    for (Part& part : parts) part.run();
-  }
-  std::uint64_t record_bytes = 0;
-  for (const cache::EncodedView& view : encoded) record_bytes += view.record.size();
-  for (const Part& part : parts) {
-    fmt::print("{:<18} {:8.1f} us a view, {:8.1f} by the clock\n",
-               part.name,
-               part.least_s / kCells * 1e6,
-               part.least_clock_s / kCells * 1e6);
-  }
-  const double storing = parts[2].least_s + parts[3].least_s;
-  for (const std::size_t caster : {0U, 1U}) {
-    const double cast = parts[caster].least_s;
-    fmt::print("{} with storing reaches {:.0f} % of the caster's rate\n",
-               parts[caster].name,
-               100 * cast / (cast + storing));
-  }
-  fmt::print("{} bytes a record\n", record_bytes / kCells);
   std::error_code ignored;
   std::filesystem::remove_all(directory, ignored);
-  return compare_runs(map, 1) + compare_runs(map, 2);
+  for (const std::size_t threads : {1U, 2U}) SEMVIEW_TRY_STATUS(compare_runs(map, threads));
+  return {};
 }
 
 }  // namespace
 }  // namespace semview
 
 int main(int argc, char** argv) {
-  return semview::run(argc > 1 ? argv[1] : SEMVIEW_SOURCE_DIR "/maps/duplex_level1");
+  constexpr const char* kUsage =
+      "bench_precompute [MAP]\n"
+      "What storing costs beside casting, of some cells of a map (default: duplex_level1): the "
+      "parts\n"
+      "of a precompute, then whole runs with one and two threads.";
+  if (const auto code = semview::bench::explain(argc, argv, kUsage)) return *code;
+  const semview::Status status =
+      semview::run(argc > 1 ? argv[1] : SEMVIEW_SOURCE_DIR "/maps/duplex_level1");
+  if (status) return 0;
+  fmt::print(stderr, "bench_precompute: {}\n", status.error().message);
+  return 1;
 }

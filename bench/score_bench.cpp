@@ -12,8 +12,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,6 +32,7 @@
 #include "semview/similarity/heat_map.hpp"
 #include "semview/similarity/prepared_observation.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
+#include "usage.hpp"
 
 namespace semview {
 namespace {
@@ -43,6 +46,12 @@ constexpr std::size_t kListed = 8;
 constexpr std::size_t kFloorCells = 8192;
 
 using Sums = std::array<std::int32_t, PoseGrid::kHeadings>;
+
+void must(const Status& status) {
+  if (status) return;
+  fmt::print(stderr, "bench_score: {}\n", status.error().message);
+  std::exit(1);
+}
 
 template <typename T>
 T must(Result<T> result) {
@@ -208,59 +217,84 @@ struct Floor {
   }
 };
 
-int run(const std::string& folder) {
-  service::SiteConfig config;
-  config.threads = 1;
-  const auto site = must(service::Site::open(folder, config));
-  const ClassTable& classes = site->map().classes;
-  const PanoramaCamera& camera = site->profile().camera;
-  const auto weights = must(similarity::read_weight_matrix(folder + "/weights.csv"));
-  const std::vector<CellIndex> free = site->cells().free_cells();
-  Rng rng(1, "bench_score");
-  std::vector<CellIndex> cells;
-  for (std::size_t i = 0; i < kCells; ++i) cells.push_back(free[rng.below(free.size())]);
-  const ViewBatch views = must(site->views().views(cells));
-  const Observation observation = observe(*site, cells[0]);
-  const Observation seen_60 = narrowed(observation, 60);
-  const auto prepare = [&](const Observation& seen) {
-    return must(similarity::PreparedObservation::build(seen, weights, classes, camera));
-  };
-  Scorer whole{prepare(observation)};
-  Scorer narrow{prepare(seen_60)};
-  Loops loops{
-      .real = {weights, classes, classes, 1.0},
-      .whole = {weights, classes, classes, static_cast<double>(whole.prepared.weight_scale())}};
-  for (std::size_t i = 0; i < kSlowCells; ++i) {
-    loops.pixels.push_back(views.views[i]->to_labels(0));
-  }
+/// A map, its weights, and what is seen in it.
+struct Scene {
+  std::shared_ptr<service::Site> site;
+  similarity::WeightMatrix weights;
+  std::vector<CellIndex> free;
+  ViewBatch views;  ///< of `kCells` cells
+  Observation observation;
 
-  Floor floor{{free.begin(),
-               free.begin() + static_cast<std::ptrdiff_t>(std::min(kFloorCells, free.size()))}};
-  similarity::SimilarityScoreSource source(site->views(), classes, weights, site->pool());
-  if (!source.set_observation(observation)) return 1;
-  must(site->views().views(floor.cells));
+  static Scene open(const std::string& folder) {
+    service::SiteConfig config;
+    config.threads = 1;
+    auto site = must(service::Site::open(folder, config));
+    auto weights = must(similarity::read_weight_matrix(folder + "/weights.csv"));
+    std::vector<CellIndex> free = site->cells().free_cells();
+    Rng rng(1, "bench_score");
+    std::vector<CellIndex> cells;
+    for (std::size_t i = 0; i < kCells; ++i) cells.push_back(free[rng.below(free.size())]);
+    ViewBatch views = must(site->views().views(cells));
+    Observation observation = observe(*site, cells[0]);
+    return {std::move(site),
+            std::move(weights),
+            std::move(free),
+            std::move(views),
+            std::move(observation)};
+  }
+  const ClassTable& classes() const { return site->map().classes; }
+  similarity::PreparedObservation prepare(const Observation& seen) const {
+    return must(
+        similarity::PreparedObservation::build(seen, weights, classes(), site->profile().camera));
+  }
+};
+
+/// The alternatives of a scene, for sums as whole as the scorer's.
+Loops loops_of(const Scene& scene, double weight_scale) {
+  Loops loops{.real = {scene.weights, scene.classes(), scene.classes(), 1.0},
+              .whole = {scene.weights, scene.classes(), scene.classes(), weight_scale}};
+  for (std::size_t i = 0; i < kSlowCells; ++i) {
+    loops.pixels.push_back(scene.views.views[i]->to_labels(0));
+  }
+  return loops;
+}
+
+int run(const std::string& folder) {
+  const Scene scene = Scene::open(folder);
+  Scorer whole{scene.prepare(scene.observation)};
+  Scorer narrow{scene.prepare(narrowed(scene.observation, 60))};
+  Loops loops = loops_of(scene, static_cast<double>(whole.prepared.weight_scale()));
+  const auto floor_cells = static_cast<std::ptrdiff_t>(std::min(kFloorCells, scene.free.size()));
+  Floor floor{{scene.free.begin(), scene.free.begin() + floor_cells}};
+  similarity::SimilarityScoreSource source(
+      scene.site->views(), scene.classes(), scene.weights, scene.site->pool());
+  must(source.set_observation(scene.observation));
+  must(scene.site->views().views(floor.cells));
 
   Part build;
   Part read;
-  const std::size_t bytes = table_bytes_of(views);
+  const std::size_t bytes = table_bytes_of(scene.views);
   const std::size_t words = whole.prepared.byte_size() / 2048 * 256;
   const auto memory = hwy::AllocateAligned<std::uint64_t>(words);
   std::fill_n(memory.get(), words, 1U);
   std::uint64_t sum = 0;
   for (int round = 0; round < kRounds; ++round) {
-    whole.round(views);
-    loops.round(observation.labels);
-    narrow.round(views);
-    if (round % 5 == 0) floor.round(*site, whole.prepared, source);
+    whole.round(scene.views);
+    loops.round(scene.observation.labels);
+    narrow.round(scene.views);
+    if (round % 5 == 0) floor.round(*scene.site, whole.prepared, source);
     read.run([&] { sum += benchmark::read_bytes({memory.get(), words}, bytes); });
-    build.run([&] { sum += static_cast<std::uint64_t>(prepare(observation).weight_scale()); });
+    build.run([&] {
+      sum += static_cast<std::uint64_t>(scene.prepare(scene.observation).weight_scale());
+    });
   }
   const bool equal = std::ranges::equal(loops.sums, std::span(whole.sums).first(kSlowCells));
+  const PanoramaCamera& camera = scene.site->profile().camera;
   fmt::print("{}: views of {}x{}, {} classes, one thread\n",
              folder,
              camera.columns,
              camera.rows,
-             classes.size());
+             scene.classes().size());
   print(whole, narrow, loops, read.us_a_view(kCells));
   floor.print();
   fmt::print("  table of the observation      {:9.2f} us, {} kB\n",
@@ -275,5 +309,11 @@ int run(const std::string& folder) {
 }  // namespace semview
 
 int main(int argc, char** argv) {
+  constexpr const char* kUsage =
+      "bench_score [MAP]\n"
+      "What it costs to score a view of a map that has a weights.csv (default: duplex_level1), "
+      "beside\n"
+      "loops over its pixels and the mere reading of as many bytes; exit code 1 if sums differ.";
+  if (const auto code = semview::bench::explain(argc, argv, kUsage)) return *code;
   return semview::run(argc > 1 ? argv[1] : SEMVIEW_SOURCE_DIR "/maps/duplex_level1");
 }

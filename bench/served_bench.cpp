@@ -29,6 +29,7 @@
 #include "semview/service/site.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "server.hpp"
+#include "usage.hpp"
 
 namespace semview {
 namespace {
@@ -222,6 +223,11 @@ void run(const std::string& part, const std::string& folder) {
 }  // namespace semview
 
 int main(int argc, char** argv) {
+  constexpr const char* kUsage =
+      "bench_served [views|scores] [MAP]\n"
+      "Views and scores of a map (default: duplex_level1) over TCP beside the same calls "
+      "in-process.";
+  if (const auto code = semview::bench::explain(argc, argv, kUsage)) return *code;
   const std::string first = argc > 1 ? argv[1] : "";
   const bool part = first == "views" || first == "scores";
   const int folder = part ? 2 : 1;

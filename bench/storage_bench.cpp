@@ -31,6 +31,7 @@
 #include "semview/view/view_codec.hpp"
 #include "storage_codings.hpp"
 #include "storage_likelihoods.hpp"
+#include "usage.hpp"
 
 namespace semview::bench {
 namespace {
@@ -229,4 +230,14 @@ int run(std::vector<std::string> arguments) {
 }  // namespace
 }  // namespace semview::bench
 
-int main(int argc, char** argv) { return semview::bench::run({argv + 1, argv + argc}); }
+int main(int argc, char** argv) {
+  constexpr const char* kUsage =
+      "bench_storage [--likelihoods] [MAP...]\n"
+      "What stored views of maps (default: the shipped plans) take in bytes and time, and what "
+      "they "
+      "would\n"
+      "take in other ways; --likelihoods prints the table of src/semview/view/view_situations.cpp.";
+  if (const auto code = semview::bench::explain(argc, argv, kUsage, {"--likelihoods"}))
+    return *code;
+  return semview::bench::run({argv + 1, argv + argc});
+}
