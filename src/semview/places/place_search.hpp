@@ -22,7 +22,7 @@ namespace semview::places {
 struct PlaceSearchConfig {
   /// weight = exp(κ · score), > 0: neighbouring pixels err together, so that a panorama is worth
   /// some hundred independent ones, not thousands.
-  double kappa = 60.0;
+  double kappa = 100.0;
   /// The same on the grid, where it only says which peaks are worth a closer look.
   double grid_kappa = 20.0;
   std::size_t candidates = 64;  ///< peaks of the grid that are refined, an eye height
