@@ -17,7 +17,8 @@ constexpr std::size_t kMostDistortedParticles = 20'000;
 void add_affine_options(CLI::App& verb, LocalizeOptions& options) {
   verb.add_flag("--estimate-map-affine",
                 options.estimate_map_affine,
-                "The map may be drawn stretched and sheared: estimate by how much");
+                "The map may be drawn stretched and sheared: estimate by how much, unless told "
+                "otherwise with --heading combined and 2000 particles");
   const auto add = [&verb](const char* name, double& value, const char* meaning) {
     verb.add_option(name, value, std::string("--estimate-map-affine: ") + meaning)
         ->capture_default_str();
@@ -105,6 +106,10 @@ Status check_belief_options(const CLI::App& verb, const LocalizeOptions& options
                                       !options.recovery.empty(),
                                       "--recovery",
                                       {"--recovery-alpha-slow", "--recovery-alpha-fast"}));
+  SEMVIEW_TRY_STATUS(check_parameters(verb,
+                                      heading_of(options) == "combined",
+                                      "--heading combined",
+                                      {"--combined-sigma", "--combined-lost"}));
   if (!options.estimate_map_affine) return {};
   const std::string most =
       fmt::format("expected at most {} with --estimate-map-affine", kMostDistortedParticles);

@@ -57,10 +57,9 @@ void group_since(CLI::App& verb, std::size_t first, const std::string& heading) 
 
 localization::HeadingStrategy heading_strategy(const LocalizeOptions& options) {
   using localization::HeadingStrategy;
-  if (options.heading == "combined") return HeadingStrategy::kCombined;
-  const bool compass =
-      options.heading.empty() ? options.global == "sampled" : options.heading == "compass";
-  return compass ? HeadingStrategy::kCompass : HeadingStrategy::kOdometry;
+  const std::string heading = heading_of(options);
+  if (heading == "combined") return HeadingStrategy::kCombined;
+  return heading == "compass" ? HeadingStrategy::kCompass : HeadingStrategy::kOdometry;
 }
 
 void add_start_options(CLI::App& verb, LocalizeOptions& options) {
@@ -85,8 +84,9 @@ void add_start_options(CLI::App& verb, LocalizeOptions& options) {
         return known ? std::string() : how + " is neither `sampled` nor `dense`";
       })
       ->excludes(init);
-  verb.add_option(
-          "--particles", options.particles, "Number of particles (default 500, 2000 with --global)")
+  verb.add_option("--particles",
+                  options.particles,
+                  "Number of particles (default 500; 2000 with --global or --estimate-map-affine)")
       ->check(CLI::Range(std::size_t{1}, kMostParticles));
   verb.add_option("--seed", options.seed, "Seed of every random number")->capture_default_str();
 }
@@ -119,7 +119,7 @@ void add_filter_options(CLI::App& verb, LocalizeOptions& options) {
           options.heading,
           "Heading from `odometry`, from the visual `compass`, the best of all 120 headings, or "
           "`combined`: the best of them that is also near the one by odometry (default: odometry; "
-          "compass with --global sampled)")
+          "combined with --estimate-map-affine, else compass with --global sampled)")
       ->check(CLI::IsMember({"odometry", "compass", "combined"}));
   const localization::CompassConfig compass;
   verb.add_option(

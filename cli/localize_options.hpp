@@ -29,11 +29,11 @@ struct LocalizeOptions {
   std::string segment;  ///< the network that labels the log's images; empty: the log has labels
   std::string output;
   std::uint64_t seed = 1;
-  std::size_t particles = 0;  ///< 0: 500, or 2000 with --global
+  std::size_t particles = 0;  ///< 0: see `particles_of`
   std::string init;
   double init_heading_sigma_deg = 10.0;
   std::string global;   ///< empty: the start is known; "sampled" or "dense"
-  std::string heading;  ///< empty: odometry, or compass with --global sampled
+  std::string heading;  ///< empty: see `heading_of`
   std::string motion = "odometry";
   localization::OdometryMotionConfig alphas = {};
   double sigma_m = localization::PositionNoiseConfig{}.sigma_m;
@@ -60,6 +60,20 @@ struct LocalizeOptions {
 
 /// --global dense: the first observation is compared with every free cell.
 inline bool is_dense(const LocalizeOptions& options) { return options.global == "dense"; }
+
+/// `--heading`, or what stands for it: a distortion is told well only by particles whose headings
+/// follow what is seen without leaving odometry.
+inline std::string heading_of(const LocalizeOptions& options) {
+  if (!options.heading.empty()) return options.heading;
+  if (options.estimate_map_affine) return "combined";
+  return options.global == "sampled" ? "compass" : "odometry";
+}
+
+/// `--particles`, or what stands for it: unknown starts and distortions want more.
+inline std::size_t particles_of(const LocalizeOptions& options) {
+  if (options.particles > 0) return options.particles;
+  return options.global.empty() && !options.estimate_map_affine ? 500 : 2000;
+}
 
 /// Declares the options; `options` must outlive the parse.
 void add_localize_options(CLI::App& verb, LocalizeOptions& options);

@@ -14,8 +14,6 @@
 namespace semview::cli {
 namespace {
 
-constexpr std::size_t kLocalParticles = 500;
-constexpr std::size_t kGlobalParticles = 2000;
 /// Past this a start is better called unknown.
 constexpr double kMostSigma_m = 100.0;
 /// How far from free space a start may lie however sure it is: robots stand close to things.
@@ -68,8 +66,7 @@ Result<KnownStart> known_start(const std::string& init) {
 
 Result<localization::ParticleSet> first_particles(const LocalizeOptions& options,
                                                   std::span<const CellIndex> free_cells) {
-  const std::size_t usual = !options.global.empty() ? kGlobalParticles : kLocalParticles;
-  const std::size_t count = options.particles > 0 ? options.particles : usual;
+  const std::size_t count = particles_of(options);
   Rng rng(options.seed, "initialization");
   if (!options.global.empty()) {
     if (free_cells.empty()) {

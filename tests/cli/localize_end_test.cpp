@@ -48,6 +48,31 @@ class LocalizeEndTest : public semview::testing::SemviewRuns {
   }
 };
 
+TEST_F(LocalizeEndTest, ADistortionTakesCombinedHeadingsAndMoreParticlesUnlessToldOtherwise) {
+  ASSERT_EQ(run({"simulate", kMap, "--out", file("short"), "--steps", "2"}), 0) << errors_;
+  const Pose2 start = io::read_tum(file("short/groundtruth.txt"))->front().pose;
+  const std::string init =
+      fmt::format("{:.3f},{:.3f},{:.1f},0.1", start.x_m, start.y_m, deg_from_rad(start.yaw_rad));
+  const auto bytes = [&](const Arguments& more) {
+    Arguments all{"localize",
+                  "--log",
+                  file("short"),
+                  "--map",
+                  kMap,
+                  "--init",
+                  init,
+                  "-o",
+                  file("est.tum"),
+                  "--estimate-map-affine"};
+    all.insert(all.end(), more.begin(), more.end());
+    EXPECT_EQ(run(all), 0) << errors_;
+    return semview::testing::file_bytes(file("est.particles.csv"));
+  };
+  const std::string usual = bytes({});
+  EXPECT_EQ(bytes({"--heading", "combined", "--particles", "2000"}), usual);
+  EXPECT_NE(bytes({"--heading", "odometry"}), usual);
+}
+
 TEST_F(LocalizeEndTest, FramesWithoutOdometryAreToldInTheSummary) {
   auto odometry = io::read_tum(file("log/odometry.txt")).value();
   const auto truth = io::read_tum(file("log/groundtruth.txt")).value();

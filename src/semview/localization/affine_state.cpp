@@ -55,22 +55,25 @@ Spread spread_of(const ParticleSet& particles, const Included& included) {
 }  // namespace
 
 Status validate(const AffineStateConfig& config) {
-  const auto require = [](bool valid, const char* field, double value) -> Status {
-    if (valid) return {};
-    return fail(Error{ErrorCode::kInvalidArgument,
-                      fmt::format("{} {} of a distorted map is out of range", field, value),
-                      field});
+  // The field's name goes beside the message: command lines have another.
+  const auto refuse = [](const char* field, double value, const char* range) {
+    return fail(
+        Error{ErrorCode::kInvalidArgument, fmt::format("{}: expected {}", value, range), field});
   };
-  const auto is_share = [](double value) { return value >= 0.0 && value <= 1.0; };
-  const auto is_sigma = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  SEMVIEW_TRY_STATUS(
-      require(is_share(config.identity_share), "identity_share", config.identity_share));
-  SEMVIEW_TRY_STATUS(
-      require(is_sigma(config.log_scale_sigma), "log_scale_sigma", config.log_scale_sigma));
-  SEMVIEW_TRY_STATUS(require(is_sigma(config.shear_sigma), "shear_sigma", config.shear_sigma));
-  SEMVIEW_TRY_STATUS(require(is_share(config.renewal), "renewal", config.renewal));
-  SEMVIEW_TRY_STATUS(require(is_sigma(config.least_sigma), "least_sigma", config.least_sigma));
-  return require(is_sigma(config.drift), "drift", config.drift);
+  const auto share = [&](const char* field, double value) -> Status {
+    if (value >= 0.0 && value <= 1.0) return {};
+    return refuse(field, value, "a share from 0 to 1");
+  };
+  const auto sigma = [&](const char* field, double value) -> Status {
+    if (value >= 0.0 && std::isfinite(value)) return {};
+    return refuse(field, value, "a finite number from 0");
+  };
+  SEMVIEW_TRY_STATUS(share("identity_share", config.identity_share));
+  SEMVIEW_TRY_STATUS(sigma("log_scale_sigma", config.log_scale_sigma));
+  SEMVIEW_TRY_STATUS(sigma("shear_sigma", config.shear_sigma));
+  SEMVIEW_TRY_STATUS(share("renewal", config.renewal));
+  SEMVIEW_TRY_STATUS(sigma("least_sigma", config.least_sigma));
+  return sigma("drift", config.drift);
 }
 
 void spread_affines(ParticleSet& particles, const AffineStateConfig& config, Rng& rng) {
