@@ -213,10 +213,12 @@ Status run(const Options& options) {
   SEMVIEW_TRY(const map::SemanticMap map, load_drawing(options));
   SEMVIEW_TRY(const Floors floors, open_floors(options.floors, map));
   const PanoramaCamera& profile = floors[0]->profile().camera;
-  SEMVIEW_TRY(const std::vector<KnownPicture> pictures,
-              options.list.empty()
-                  ? simulate_pictures(options.simulated, floors[0]->cells(), profile)
-                  : read_picture_list(options.list, profile, labeller ? &*labeller : nullptr));
+  SEMVIEW_TRY(
+      const std::vector<KnownPicture> pictures,
+      options.list.empty()
+          ? simulate_pictures(options.simulated, floors[0]->cells(), profile)
+          : read_picture_list(
+                options.list, floors[0]->cells(), profile, labeller ? &*labeller : nullptr));
   SEMVIEW_TRY(const std::vector<Row> rows, evaluate(options, floors, pictures));
   if (options.json) {
     print_json(floors, rows);
@@ -259,6 +261,10 @@ void add_evaluate_images(CLI::App& evaluate_verb, int& exit_code) {
       "the same name or synonyms count 1, best cell and heading) and printed figures of others.");
   const auto options = std::make_shared<Options>();
   add_eye_height_options(*verb, options->floors);
+  verb->remove_option(verb->get_option("map"));  // named by --map, as `evaluate logs` has it
+  verb->add_option("--map", options->floors.site.map, "Map folder, map.yaml or .glb")
+      ->type_name("MAP")
+      ->required();
   verb->add_option("--list",
                    options->list,
                    "Lines of picture,x_m,y_m,yaw_deg: observation folders, or photographs with "
@@ -281,7 +287,7 @@ void add_evaluate_images(CLI::App& evaluate_verb, int& exit_code) {
       ->capture_default_str();
   verb->add_flag("--json", options->json, "Print JSON");
   verb->footer(
-      "Example: semview evaluate images maps/duplex_level1 --world maps/duplex_building "
+      "Example: semview evaluate images --map maps/duplex_level1 --world maps/duplex_building "
       "--pictures 100");
   verb->callback([options, &exit_code] { exit_code = report(run(*options)); });
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eye_heights.hpp"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "semview/map/semantic_map.hpp"
 
@@ -23,6 +26,14 @@ Result<std::vector<std::shared_ptr<service::Site>>> open_floors(const EyeHeightO
   std::vector<double> heights_m = options.eye_heights_m;
   if (heights_m.empty()) {
     heights_m.assign(std::begin(kUsualEyeHeights_m), std::end(kUsualEyeHeights_m));
+  }
+  for (const double height_m : heights_m) {
+    // Twice the same would have the height searched between it and itself.
+    if (std::ranges::count(heights_m, height_m) <= 1) continue;
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              fmt::format("--eye-height {:g}: is named twice; expected each once", height_m),
+              "--eye-height"});
   }
   SEMVIEW_TRY(service::SiteConfig config, site_config(options.site));
   SEMVIEW_TRY(const service::SharedTiers tiers, service::SharedTiers::open(config));

@@ -12,6 +12,8 @@
 namespace semview::cli {
 namespace {
 
+constexpr double kMostEyeHeight_m = 100.0;  // as of views
+
 tl::unexpected<Error> usage(const std::string& option, const std::string& message) {
   return fail(Error{ErrorCode::kInvalidArgument, fmt::format("{}: {}", option, message), option});
 }
@@ -81,10 +83,13 @@ Status check_observe_options(const ObserveOptions& options) {
   if (const Status valid = validate(options.panorama); !valid) {
     return usage("--columns", valid.error().message);
   }
-  if (!std::isfinite(options.eye_height_m) || !std::isfinite(options.stamp_s)) {
-    return usage(std::isfinite(options.stamp_s) ? "--eye-height" : "--stamp",
-                 "expected a finite number");
+  if (!(options.eye_height_m > 0.0 && options.eye_height_m <= kMostEyeHeight_m)) {
+    return usage("--eye-height",
+                 fmt::format("{:g}: expected a height above 0 m and up to {:g} m",
+                             options.eye_height_m,
+                             kMostEyeHeight_m));
   }
+  if (!std::isfinite(options.stamp_s)) return usage("--stamp", "expected a finite number");
   if (!options.overlay.empty()) SEMVIEW_TRY_STATUS(io::check_output_png(options.overlay));
   return io::check_output_folder(options.output);
 }

@@ -74,6 +74,7 @@ Result<Observation> read_picture(const std::filesystem::path& folder,
 }  // namespace
 
 Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path& path,
+                                                    const map::CellGrid& cells,
                                                     const PanoramaCamera& profile,
                                                     const PhotoLabeller* labeller) {
   SEMVIEW_TRY(const std::string text, io::read_text_file(path, kMaxListBytes));
@@ -92,6 +93,15 @@ Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path&
           ErrorCode::kInvalidArgument,
           fmt::format(
               "{}:{}: expected picture,x_m,y_m,yaw_deg, found '{}'", path.string(), number, line));
+    }
+    const auto cell = PoseGrid::cell((*numbers)[0], (*numbers)[1]);
+    if (!cell || !cells.contains(*cell)) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("{}:{}: ({:g}, {:g}) is not on the map; expected its metres",
+                              path.string(),
+                              number,
+                              (*numbers)[0],
+                              (*numbers)[1]));
     }
     const std::string name = line.substr(0, comma);
     Result<Observation> observation = read_picture(path.parent_path(), name, profile, labeller);

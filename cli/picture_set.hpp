@@ -24,10 +24,12 @@ struct KnownPicture {
 /// Lines `picture,x_m,y_m,yaw_deg`; a first line of names, empty lines and lines that start with #
 /// are skipped. A picture is, relative to the list's folder, the folder of an observation, or a
 /// photograph, of a rig of several cameras their photographs in its order with `;` between them.
+/// @param cells     of the map: every pose is over one of them
 /// @param labeller  for photographs; null if nobody said how they are labelled
 /// @errors kNotFound, kInvalidArgument with file and line; those of `io::read_observation` and
 /// `PhotoLabeller::observe`.
 Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path& path,
+                                                    const map::CellGrid& cells,
                                                     const PanoramaCamera& profile,
                                                     const PhotoLabeller* labeller);
 

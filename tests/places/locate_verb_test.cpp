@@ -70,11 +70,18 @@ TEST_F(LocateVerbTest, PrintsPlacesAndDrawsWhereItMayBe) {
   EXPECT_TRUE(io::png_size(file("where.png")));
 }
 
+TEST_F(LocateVerbTest, AnEyeHeightTwiceIsRefused) {
+  const auto run = testing::run_semview("locate " + map_.string() + " --obs " + file("obs") +
+                                        " --eye-height 1.2 1.2");
+  EXPECT_EQ(run.exit_code, 2) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("--eye-height 1.2: is named twice"));
+}
+
 TEST_F(LocateVerbTest, CountsHowOftenAListedPictureIsFound) {
   std::ofstream(file("poses.csv")) << "folder,x_m,y_m,yaw_deg\nobs,0.93,0.87,-52.4\n";
-  const auto run =
-      testing::run_semview("evaluate images " + map_.string() + " --list " + file("poses.csv") +
-                           " --eye-height 1.2 --rows 150 --elevation -75,75 --json");
+  const auto run = testing::run_semview("evaluate images --map " + map_.string() + " --list " +
+                                        file("poses.csv") +
+                                        " --eye-height 1.2 --rows 150 --elevation -75,75 --json");
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const json answer = json::parse(run.output);
   EXPECT_EQ(answer["rows"][0]["method"], "semview");
@@ -108,7 +115,7 @@ TEST_F(LocateVerbTest, AListedPhotographIsLabelledAsObserveLabelsIt) {
   std::ofstream(file("photos.csv")) << "room.png,0.93,0.87,-52.4\n";
   std::ofstream(file("folders.csv")) << "seen,0.93,0.87,-52.4\n";
   const auto evaluated = [&](const std::string& options) {
-    const auto run = testing::run_semview("evaluate images " + map_.string() + options +
+    const auto run = testing::run_semview("evaluate images --map " + map_.string() + options +
                                           " --eye-height 1.2 --rows 150 --elevation -75,75 --json");
     EXPECT_EQ(run.exit_code, 0) << run.output;
     return json::parse(run.output.substr(std::min(run.output.find('{'), run.output.size())));
@@ -117,19 +124,24 @@ TEST_F(LocateVerbTest, AListedPhotographIsLabelledAsObserveLabelsIt) {
   EXPECT_EQ(photos, evaluated(" --list " + file("folders.csv")));
   EXPECT_EQ(photos["rows"][0]["pictures"], 1);
 
-  const auto unlabelled =
-      testing::run_semview("evaluate images " + map_.string() + " --list " + file("photos.csv"));
+  const auto unlabelled = testing::run_semview("evaluate images --map " + map_.string() +
+                                               " --list " + file("photos.csv"));
   EXPECT_EQ(unlabelled.exit_code, 1);
   EXPECT_THAT(unlabelled.output, HasSubstr("photos.csv:1: room.png is a photograph; expected"));
 }
 
 TEST_F(LocateVerbTest, NamesTheLineOfAListThatIsNone) {
   std::ofstream(file("poses.csv")) << "folder,x_m,y_m,yaw_deg\nobs,0.93,here\n";
-  const auto run = testing::run_semview("evaluate images " + map_.string() + " --list " +
+  const auto run = testing::run_semview("evaluate images --map " + map_.string() + " --list " +
                                         file("poses.csv") + " --eye-height 1.2");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.output, HasSubstr("poses.csv:2: expected picture,x_m,y_m,yaw_deg"));
-  const auto neither = testing::run_semview("evaluate images " + map_.string());
+  std::ofstream(file("far.csv")) << "obs,1000,0.87,-52.4\n";
+  const auto far = testing::run_semview("evaluate images --map " + map_.string() + " --list " +
+                                        file("far.csv") + " --eye-height 1.2");
+  EXPECT_EQ(far.exit_code, 1);
+  EXPECT_THAT(far.output, HasSubstr("far.csv:1: (1000, 0.87) is not on the map"));
+  const auto neither = testing::run_semview("evaluate images --map " + map_.string());
   EXPECT_EQ(neither.exit_code, 2) << neither.output;
 }
 
