@@ -14,11 +14,13 @@
 #include <fmt/format.h>
 
 #include "evaluate_verbs.hpp"
+#include "experiments/paper2017/guard.hpp"
 #include "experiments/paper2017/hand_matrix.hpp"
 #include "experiments/paper2017/lost_calibration.hpp"
 #include "semview/core/thread_pool.hpp"
 #include "semview/io/text_file.hpp"
 #include "semview/similarity/weight_matrix.hpp"
+#include "threads_option.hpp"
 #include "verb.hpp"
 #include "world_list.hpp"
 
@@ -30,6 +32,7 @@ using paper2017::LostStop;
 
 const std::vector<std::uint64_t> kTrainingWorlds{101, 102, 103, 104, 105, 106};
 const std::vector<double> kTrainingNoise{0.2, 0.3, 0.5};
+constexpr double kMostNoise = 3.0;
 
 struct Options {
   std::string worlds = "1..6";
@@ -81,18 +84,23 @@ void print_quality(const std::string& title, const LostQuality& quality) {
 Result<std::vector<std::uint64_t>> worlds_of(const Options& options) {
   if (options.learn) return kTrainingWorlds;
   SEMVIEW_TRY(std::vector<std::uint64_t> worlds, parse_worlds(options.worlds));
-  for (const std::uint64_t world : worlds) {
-    if (std::ranges::find(kTrainingWorlds, world) == kTrainingWorlds.end()) continue;
-    return fail(Error{ErrorCode::kInvalidArgument,
-                      fmt::format("--worlds {}: the model was learned there, expected others than "
-                                  "101 to 106",
-                                  world),
-                      "--worlds"});
-  }
+  if (const auto use = paper2017::check_worlds(worlds); !use) return fail(use.error());
   return worlds;
 }
 
+Status check_noise(const std::vector<double>& levels) {
+  for (const double level : levels) {
+    if (level >= 0.0 && level <= kMostNoise && std::ranges::count(levels, level) == 1) continue;
+    return fail(Error{
+        ErrorCode::kInvalidArgument,
+        fmt::format("--noise {:g}: expected levels from 0 to {:g}, each once", level, kMostNoise),
+        "--noise"});
+  }
+  return {};
+}
+
 Status evaluate_lost(const Options& options) {
+  SEMVIEW_TRY_STATUS(check_noise(options.noise));
   SEMVIEW_TRY(std::vector<std::uint64_t> worlds, worlds_of(options));
   SEMVIEW_TRY(similarity::WeightMatrix weights,
               similarity::parse_weight_matrix(std::string(paper2017::kHandMatrix),
@@ -136,19 +144,21 @@ void add_evaluate_lost_verb(CLI::App& evaluate, int& exit_code) {
       "wrong and unknown starts and kidnapped robots. Prints calibration error, alarms and false "
       "alarms; writes lost_stops.csv and reliability.svg.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("--worlds", options->worlds, "World seeds")
-      ->type_name("A..B,C,...")
-      ->capture_default_str();
+  auto* worlds = verb->add_option("--worlds",
+                                  options->worlds,
+                                  "World seeds: 1..100 for results, 201..205 for choosing settings")
+                     ->type_name("A..B,C,...")
+                     ->capture_default_str();
   verb->add_option("--noise", options->noise, "Levels of segmentation noise")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 3.0))
       ->capture_default_str();
   verb->add_option("--runs", options->runs, "Drives of each situation and heading")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   verb->add_option("--seed", options->seed, "Seed of every random number")->capture_default_str();
-  verb->add_option("--threads", options->threads, "Threads; 0: one a core")->capture_default_str();
-  verb->add_flag("--learn", options->learn, "Learn the model anew, on worlds 101 to 106");
+  add_threads_option(*verb, options->threads);
+  verb->add_flag("--learn", options->learn, "Learn the model anew, on worlds 101 to 106")
+      ->excludes(worlds);
   verb->add_option("-o,--out", options->out, "Folder for what is written")->capture_default_str();
   verb->footer("Example: semview evaluate lost --worlds 1,2,3 -o lost");
   verb->callback([options, &exit_code] { exit_code = report(evaluate_lost(*options)); });

@@ -24,6 +24,7 @@
 #include "semview/io/text_file.hpp"
 #include "site_options.hpp"
 #include "starts_option.hpp"
+#include "threads_option.hpp"
 #include "verb.hpp"
 #include "world_list.hpp"
 
@@ -170,8 +171,7 @@ void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--seed", options->experiment.seed, "Seed of the filters")
       ->capture_default_str();
-  verb->add_option("--threads", options->experiment.threads, "0: one a core; results do not change")
-      ->capture_default_str();
+  add_threads_option(*verb, options->experiment.threads);
   verb->add_option("--methods",
                    options->experiment.methods,
                    "Methods; \"ablation\": ours, and ours without one idea each; default: "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview evaluate rooms`.
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,9 +66,22 @@ Status print_start(const Options& options,
   return {};
 }
 
+bool share_a_name(const std::vector<evaluation::NamedRoom>& some,
+                  const std::vector<evaluation::NamedRoom>& others) {
+  return std::ranges::any_of(some, [&](const evaluation::NamedRoom& room) {
+    return std::ranges::find(others, room.name, &evaluation::NamedRoom::name) != others.end();
+  });
+}
+
 Status evaluate_rooms(const Options& options) {
   SEMVIEW_TRY(const auto true_rooms, evaluation::read_rooms(options.true_rooms));
   SEMVIEW_TRY(const auto rooms, evaluation::read_rooms(options.rooms));
+  if (!share_a_name(true_rooms, rooms)) {
+    return fail(ErrorCode::kFailedPrecondition,
+                fmt::format("{} and {}: have no room of the same name; rooms are joined by name",
+                            options.true_rooms,
+                            options.rooms));
+  }
   SEMVIEW_TRY(const io::RunLog log, io::read_run_log(options.log));
   if (!log.groundtruth) {
     return fail(ErrorCode::kFailedPrecondition,
@@ -106,7 +120,9 @@ void add_evaluate_rooms_verb(CLI::App& evaluate, int& exit_code) {
       "rooms",
       "Estimated trajectories on a sketch of the building: how many poses are in the right room, "
       "and whether rooms come in the right order. Rooms are rectangles in CSV files, of the "
-      "building in the ground truth's frame and of the sketch in its own, joined by name.");
+      "building in the ground truth's frame and of the sketch in its own, joined by name; where "
+      "two overlap, the one listed first "
+      "counts.");
   const auto options = std::make_shared<Options>();
   verb->add_option("--log", options->log, "Folder of the run log, with ground truth")->required();
   verb->add_option("--true-rooms", options->true_rooms, "CSV file of the building's rooms")

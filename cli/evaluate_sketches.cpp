@@ -17,6 +17,7 @@
 #include "semview/io/png.hpp"
 #include "semview/io/text_file.hpp"
 #include "site_options.hpp"
+#include "threads_option.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
@@ -88,8 +89,7 @@ void add_evaluate_sketches_verb(CLI::App& evaluate, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--runs", settings.runs, "Filter seeds a sketch")->capture_default_str();
   verb->add_option("--seed", settings.seed, "Seed of sketches and filters")->capture_default_str();
-  verb->add_option("--threads", settings.threads, "0: one a core; results do not change")
-      ->capture_default_str();
+  add_threads_option(*verb, settings.threads);
   verb->add_option("--methods", settings.methods, "Some of weighted, none, global, local")
       ->type_name("METHOD,...")
       ->delimiter(',');

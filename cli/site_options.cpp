@@ -10,14 +10,10 @@
 #include "semview/core/byte_size.hpp"
 #include "semview/core/log.hpp"
 #include "semview/geometry/angle.hpp"
+#include "threads_option.hpp"
 #include "verb.hpp"
 
 namespace semview::cli {
-namespace {
-
-constexpr int kMostThreads = 1024;
-
-}  // namespace
 
 void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
   verb.add_option("map", options.map, "Map: a bundle's folder, its map.yaml, or a .glb")
@@ -39,9 +35,7 @@ void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
                   "Store no more than this many bytes (500M, 20G); 0: as far as the disk goes")
       ->type_name("BYTES")
       ->capture_default_str();
-  verb.add_option("--threads", options.threads, "Threads; 0: one a core")
-      ->check(CLI::Range(0, kMostThreads))
-      ->capture_default_str();
+  add_threads_option(verb, options.threads);
   verb.add_flag("--nearest-colour",
                 options.nearest_colour,
                 "Take a plan's in-between colours for the nearest class colour");

@@ -118,7 +118,7 @@ Status learn(const Options& options) {
   }
   if (!options.list.empty()) {
     SEMVIEW_TRY(const std::vector<KnownPicture> pictures,
-                read_picture_list(options.list, site->profile().camera, nullptr));
+                read_picture_list(options.list, site->cells(), site->profile().camera, nullptr));
     for (const KnownPicture& picture : pictures) {
       Status added = lesson.add(picture.observation, picture.map_from_robot);
       if (!added) return with_context(std::move(added), picture.name);

@@ -21,11 +21,16 @@
 #include "semview/io/text_file.hpp"
 #include "semview/similarity/weight_matrix.hpp"
 #include "unit.hpp"
+#include "unit_file.hpp"
 
 namespace semview::paper2017 {
 namespace {
 
-constexpr std::size_t kMaxUnitBytes = std::size_t{256} << 20U;
+std::string first_line(const ExperimentConfig& config) {
+  Hasher hasher;
+  hasher.add_string(describe(config));
+  return fmt::format("# semview paper2017, settings {}\n", to_hex(hasher.digest()));
+}
 
 std::vector<std::string> default_methods(const Row& row) {
   std::vector<std::string> ids{"identity", "weighted", "ours"};
@@ -35,6 +40,14 @@ std::vector<std::string> default_methods(const Row& row) {
 
 Result<std::vector<Method>> methods_of(const ExperimentConfig& config, const Row& row) {
   return methods_by_id(config.methods.empty() ? default_methods(row) : config.methods);
+}
+
+/// The first line of a unit's file: what was made with other settings, or with other methods of
+/// the row, is not mixed in.
+std::string first_line_of(const ExperimentConfig& config, const Row& row) {
+  ExperimentConfig of_row = config;
+  if (of_row.methods.empty()) of_row.methods = default_methods(row);
+  return first_line(of_row);
 }
 
 struct Unit {
@@ -50,9 +63,7 @@ class Runner {
       : experiment_(experiment),
         config_(experiment.config),
         progress_(progress),
-        pool_(config_.threads),
-        // The hash in each file's first line: what was made with other settings is not mixed in.
-        first_line_(fmt::format("# semview paper2017, settings {}\n", hash())) {}
+        pool_(config_.threads) {}
 
   Status run() {
     SEMVIEW_TRY_STATUS(list_units());
@@ -64,12 +75,6 @@ class Runner {
   }
 
  private:
-  std::string hash() const {
-    Hasher hasher;
-    hasher.add_string(describe(config_));
-    return to_hex(hasher.digest());
-  }
-
   /// The units, and which of them are there already.
   Status list_units() {
     for (const Row& row : experiment_.rows) {
@@ -85,15 +90,8 @@ class Runner {
                               "--out",
                               "go on with --resume, or choose another --out"});
           }
-          SEMVIEW_TRY(const std::string text, io::read_text_file(unit.file, kMaxUnitBytes));
-          if (!text.starts_with(first_line_)) {
-            return fail(
-                Error{ErrorCode::kFailedPrecondition,
-                      fmt::format("{}: was made with other settings than those asked for ({})",
-                                  unit.file.string(),
-                                  hash()),
-                      "--resume",
-                      "choose another --out, or the options of settings.txt there"});
+          if (const auto rows = read_unit(unit.file, first_line_of(config_, row)); !rows) {
+            return fail(rows.error());
           }
         }
         units_.push_back(std::move(unit));
@@ -206,25 +204,21 @@ class Runner {
                          *unit.row,
                          experiment_.worlds[unit.world],
                          config_.worlds[unit.world]));
-    std::string text = first_line_ + csv_header();
     std::string times = times_csv_header();
-    for (const TrialRecord& drive : drives) {
-      text += to_csv(drive);
-      times += times_csv(drive);
-    }
+    for (const TrialRecord& drive : drives) times += times_csv(drive);
     // The results last: where they are, the unit is finished.
     std::filesystem::path times_file = unit.file;
     SEMVIEW_TRY_STATUS(io::write_text_file(times_file.replace_extension(".times.csv"), times));
-    return io::write_text_file(unit.file, text);
+    return io::write_text_file(unit.file, unit_text(drives, first_line_of(config_, *unit.row)));
   }
 
   /// From the files, finished now or earlier: tables cannot differ from what is stored.
   Status collect() {
-    std::string all = first_line_ + csv_header();
+    std::string all = first_line(config_) + csv_header();
     for (const Unit& unit : units_) {
-      SEMVIEW_TRY(const std::string text, io::read_text_file(unit.file, kMaxUnitBytes));
-      all += text.substr(std::min(text.size(), first_line_.size() + csv_header().size()));
-      SEMVIEW_TRY(std::vector<TrialRecord> trials, parse_trials(text, unit.file.string()));
+      SEMVIEW_TRY(const std::string rows, read_unit(unit.file, first_line_of(config_, *unit.row)));
+      all += rows;
+      SEMVIEW_TRY(std::vector<TrialRecord> trials, parse_trials(rows, unit.file.string()));
       for (TrialRecord& trial : trials) experiment_.trials.push_back(std::move(trial));
     }
     return io::write_text_file(config_.out / "runs.csv", all);
@@ -234,7 +228,6 @@ class Runner {
   const ExperimentConfig& config_;
   const std::function<void(const ExperimentProgress&)>& progress_;
   ThreadPool pool_;
-  std::string first_line_;
   std::vector<Unit> units_;
   UnitSettings settings_;
 };
@@ -265,7 +258,8 @@ Status validate(const ExperimentConfig& config) {
   if (config.runs < 1 || config.runs > 1000) {
     return refuse("--runs", fmt::format("--runs {}: expected 1 to 1000", config.runs));
   }
-  if (config.starts.empty()) return refuse("--starts", "--starts: expected local, global or both");
+  SEMVIEW_TRY_STATUS(check_starts(config.starts));
+  SEMVIEW_TRY_STATUS(check_each_once("--rows", config.rows));
   if (config.out.empty()) return refuse("--out", "--out: expected a folder");
   if (const auto rows = rows_of(config); !rows) return fail(rows.error());
   if (const auto methods = methods_by_id(config.methods); !methods) return fail(methods.error());
@@ -275,7 +269,7 @@ Status validate(const ExperimentConfig& config) {
 
 std::string describe(const ExperimentConfig& config) {
   std::string text = fmt::format(
-      "format: 1\nengine: {}\nruns: {}, seed {}\nstarts:", config.engine, config.runs, config.seed);
+      "format: 2\nengine: {}\nruns: {}, seed {}\nstarts:", config.engine, config.runs, config.seed);
   for (const Start start : config.starts) text += fmt::format(" {}", name(start));
   text += '\n' + describe(config.world);
   std::vector<std::string> ids = config.methods;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guard.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -55,6 +57,9 @@ Result<WorldUse> check_worlds(std::span<const std::uint64_t> worlds) {
                       kFirstValidationWorld,
                       kLastValidationWorld));
     }
+    if (std::ranges::count(worlds, world) > 1) {
+      return refuse(fmt::format("--worlds: {} is named twice; expected each once", world));
+    }
     if (use != first) {
       return refuse(fmt::format("--worlds: {} is a {} world and {} a {} world; expected one kind",
                                 worlds.front(),
@@ -64,6 +69,26 @@ Result<WorldUse> check_worlds(std::span<const std::uint64_t> worlds) {
     }
   }
   return *first;
+}
+
+Status check_each_once(std::string_view option, std::span<const std::string> values) {
+  for (const std::string& value : values) {
+    if (std::ranges::count(values, value) == 1) continue;
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("{}: {} is named twice; expected each once", option, value),
+                      std::string(option)});
+  }
+  return {};
+}
+
+Status check_starts(std::span<const Start> starts) {
+  if (starts.empty()) {
+    return fail(
+        Error{ErrorCode::kInvalidArgument, "--starts: expected local, global or both", "--starts"});
+  }
+  std::vector<std::string> names;
+  for (const Start start : starts) names.emplace_back(name(start));
+  return check_each_once("--starts", names);
 }
 
 Status check_provenance(const Provenance& provenance) {

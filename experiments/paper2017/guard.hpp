@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "methods.hpp"
 #include "semview/core/result.hpp"
 
 namespace semview::paper2017 {
@@ -30,8 +31,16 @@ std::string_view name(WorldUse use);
 
 /// The one use of the worlds of a table.
 /// @errors kInvalidArgument: no world, a seed of no use, a training world (its errors would be
-/// those of examples that were learned by heart), or test and validation worlds together.
+/// those of examples that were learned by heart), test and validation worlds together, or a world
+/// twice.
 Result<WorldUse> check_worlds(std::span<const std::uint64_t> worlds);
+
+/// What is named twice would be counted twice: averages over copies, columns that repeat.
+/// @errors kInvalidArgument with field `option`: two of `values` are equal.
+Status check_each_once(std::string_view option, std::span<const std::string> values);
+
+/// @errors kInvalidArgument, field `--starts`: no start, or one twice.
+Status check_starts(std::span<const Start> starts);
 
 /// Who renders what, from what.
 struct Provenance {

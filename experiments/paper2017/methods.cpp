@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "guard.hpp"
 #include "semview/geometry/angle.hpp"
 
 namespace semview::paper2017 {
@@ -163,6 +164,9 @@ Result<std::vector<Method>> methods_by_id(std::span<const std::string> ids) {
     }
     methods.push_back(*found);
   }
+  std::vector<std::string> names;
+  for (const Method& method : methods) names.push_back(method.id);
+  SEMVIEW_TRY_STATUS(check_each_once("--methods", names));
   return methods;
 }
 

@@ -54,7 +54,7 @@ const std::vector<Method>& all_methods();
 const Method* find_method(std::string_view id);
 
 /// Methods by their ids; "ablation" stands for ours and ours without one idea each.
-/// @errors kInvalidArgument: an id that there is not; the message lists those that there are.
+/// @errors kInvalidArgument: a method twice, or an unknown id; the message lists the known ones.
 Result<std::vector<Method>> methods_by_id(std::span<const std::string> ids);
 
 /// Every setting in one line: equal methods have equal texts.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "guard.hpp"
 #include "semview/evaluation/poses_at.hpp"
 #include "unit.hpp"
 
@@ -75,7 +76,7 @@ Status validate(const RecordingsConfig& config) {
   if (config.runs < 1 || config.runs > 1000) {
     return refuse("--runs", fmt::format("--runs {}: expected 1 to 1000", config.runs));
   }
-  if (config.starts.empty()) return refuse("--starts", "--starts: expected local, global or both");
+  SEMVIEW_TRY_STATUS(check_starts(config.starts));
   if (const auto methods = methods_by_id(config.methods); !methods) return fail(methods.error());
   return {};
 }

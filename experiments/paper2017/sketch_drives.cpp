@@ -221,8 +221,8 @@ Status validate(const SketchSettings& settings) {
   if (settings.runs < 1 || settings.runs > 1000) {
     return refuse("--runs", fmt::format("--runs {}: expected 1 to 1000", settings.runs));
   }
-  if (settings.starts.empty())
-    return refuse("--starts", "--starts: expected local, global or both");
+  SEMVIEW_TRY_STATUS(check_starts(settings.starts));
+  SEMVIEW_TRY_STATUS(check_each_once("--methods", settings.methods));
   if (settings.out.empty()) return refuse("--out", "--out: expected a folder");
   if (const auto methods = methods_of(settings); !methods) return fail(methods.error());
   if (const auto use = check_worlds(settings.worlds); !use) return fail(use.error());

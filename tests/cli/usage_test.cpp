@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What people get wrong on command lines: one line that names the option or file, before any work.
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -103,7 +104,68 @@ TEST_F(UsageTest, WorldsAreListedAlikeInEveryExperiment) {
   }
   for (const char* const list : {"1..3,101", "3,100..102"}) {
     expect_usage({"evaluate", "lost", "--worlds", list, "--out", file("out")},
-                 "--worlds 101: the model was learned there");
+                 "--worlds: weights are learned on world 101");
+  }
+}
+
+TEST_F(UsageTest, WorldsAndNoiseOfLostAreChecked) {
+  const auto expect = [&](const std::string& option, const std::string& value, const char* words) {
+    expect_usage({"evaluate", "lost", option, value, "--out", file("out")}, words);
+  };
+  expect("--worlds", "1,201", "--worlds: 1 is a test world and 201 a validation world");
+  expect("--worlds", "300", "--worlds: 300 is no world");
+  expect("--noise", "nan", "--noise nan: expected levels from 0 to 3, each once");
+  expect("--noise", "0.3,0.3", "--noise 0.3: expected levels from 0 to 3, each once");
+  expect_usage({"evaluate", "lost", "--learn", "--worlds", "1"}, "--worlds");
+}
+
+TEST_F(UsageTest, NoExperimentStartsMoreThreadsThanThereCanBe) {
+  for (const char* const experiment : {"paper2017", "sketches", "lost"}) {
+    expect_usage({"evaluate", experiment, "--threads", "100000", "--out", file("out")},
+                 "--threads: Value 100000 not in range");
+  }
+  expect_usage({"evaluate", "logs", "--map", kMap, "log", "--threads", "100000"},
+               "--threads: Value 100000 not in range");
+}
+
+TEST_F(UsageTest, WhatIsNamedTwiceIsRefused) {
+  const auto expect = [&](const std::string& verb, const std::string& option, const char* list) {
+    const std::string first = std::string(list).substr(0, std::string(list).find(','));
+    Arguments all{"evaluate", verb, option, list, "--out", file("out")};
+    if (verb == "logs") all.insert(all.end(), {"--map", kMap, "log"});
+    expect_usage(all, option + ": " + first + " is named twice; expected each once");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+  };
+  expect("paper2017", "--rows", "unmodified,unmodified");
+  expect("paper2017", "--methods", "ours,ablation");
+  expect("paper2017", "--starts", "local,local");
+  expect("sketches", "--worlds", "1,1");
+  expect("sketches", "--methods", "none,none");
+  expect("sketches", "--starts", "local,local");
+  expect("logs", "--methods", "ours,ours");
+  expect("logs", "--starts", "local,local");
+}
+
+TEST_F(UsageTest, RoomsOfNoCommonNameAreRefused) {
+  const std::string header = "room,min_x_m,min_y_m,max_x_m,max_y_m\n";
+  std::ofstream(folder_ / "true.csv") << header << "hall,0,0,1,1\n";
+  std::ofstream(folder_ / "drawn.csv") << header << "kitchen,0,0,1,1\n";
+  expect_failure({"evaluate",
+                  "rooms",
+                  "--log",
+                  "log",
+                  "--true-rooms",
+                  file("true.csv"),
+                  "--rooms",
+                  file("drawn.csv"),
+                  "est.tum"},
+                 "have no room of the same name");
+}
+
+TEST_F(UsageTest, APanoramasEyeIsAboveTheGround) {
+  for (const char* const height : {"-3", "0", "nan", "101"}) {
+    expect_usage({"observe", "x.jpg", "--equirectangular", "--eye-height", height, "-o", "out"},
+                 "--eye-height: " + std::string(height) + ": expected a height above 0 m");
   }
 }
 
@@ -141,7 +203,11 @@ TEST_F(UsageTest, WrongParametersOfTheFilterAreNamedByTheirOption) {
   expect({"--recovery", "uniform", "--recovery-alpha-fast", "0.01"}, "--recovery-alpha-fast");
   expect({"--recovery", "prayer"}, "--recovery");
   expect({"--affine-drift", "0.1"}, "--affine-drift: needs --estimate-map-affine");
-  expect({"--estimate-map-affine", "--affine-exact", "2"}, "--affine-exact");
+  expect({"--estimate-map-affine", "--affine-exact", "2"},
+         "--affine-exact: 2: expected a share from 0 to 1");
+  expect({"--estimate-map-affine", "--affine-scale-sigma", "nan"},
+         "--affine-scale-sigma: nan: expected a finite number from 0");
+  expect({"--combined-sigma", "3"}, "--combined-sigma: needs --heading combined");
   expect({"--estimate-map-affine", "--particles", "30000"}, "--particles: 30000");
 }
 

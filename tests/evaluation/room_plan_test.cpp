@@ -37,6 +37,12 @@ TEST(RoomPlanTest, RoomsAreComparedByNameAndCountedOncePerVisit) {
   EXPECT_THAT(score.found_order, ElementsAre("hall", "kitchen", ""));
 }
 
+TEST(RoomPlanTest, OfOverlappingRoomsTheFirstCounts) {
+  const std::vector<NamedRoom> rooms{{"hall", 0, 0, 3, 4}, {"kitchen", 2, 0, 6, 4}};
+  EXPECT_EQ(room_at(rooms, {2.5, 1.0, 0.0})->name, "hall");
+  EXPECT_EQ(room_at(rooms, {3.0, 1.0, 0.0})->name, "kitchen");
+}
+
 TEST(RoomPlanTest, FilesAreReadAndErrorsNamedByLine) {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& text) {

@@ -69,6 +69,30 @@ TEST(ExperimentTest, ResultsOfOtherSettingsAreNotMixedIn) {
   EXPECT_THAT(other.error().message, HasSubstr("was made with other settings"));
 }
 
+TEST(ExperimentTest, AUnitThatWasCutIsToldWithWhatToDo) {
+  const TemporaryFolder folder;
+  ExperimentConfig config = few(folder / "out");
+  config.rows = {"unmodified"};
+  ASSERT_TRUE(run_experiment(config, say_nothing));
+  config.resume = true;
+  const std::filesystem::path unit = config.out / "units/unmodified.world_1.csv";
+  const std::string whole = *io::read_text_file(unit, std::size_t{1} << 28U);
+  const std::size_t line_end = whole.find('\n', whole.size() / 2) + 1;
+  for (const std::size_t length : {line_end, line_end - 5}) {
+    ASSERT_TRUE(io::write_text_file(unit, whole.substr(0, length)));
+    const auto cut = run_experiment(config, say_nothing);
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().message, HasSubstr("was cut"));
+    EXPECT_THAT(cut.error().hint, HasSubstr("delete " + unit.string()));
+  }
+  std::string damaged = whole;
+  damaged.erase(line_end - 1, 1);
+  ASSERT_TRUE(io::write_text_file(unit, damaged));
+  const auto refused = run_experiment(config, say_nothing);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().hint, HasSubstr("delete " + unit.string()));
+}
+
 TEST(ExperimentTest, BadOptionsAreRefusedByName) {
   const auto field = [](const auto& change) {
     ExperimentConfig config = few("unused");
