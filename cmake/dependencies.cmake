@@ -12,6 +12,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(OpenCVDnn REQUIRED)
+find_package(OpenVDBCore REQUIRED)
 find_package(cppzmq REQUIRED)
 # Debian 12 ships no CMake config for protobuf: module mode.
 find_package(Protobuf REQUIRED)

@@ -8,6 +8,7 @@
 #   tools/install_deps.sh --runtime   only the libraries that the installed programs need
 set -euo pipefail
 
+# OpenVDB's headers include those of Boost, which its package does not bring.
 build=(
   cmake ninja-build g++ pkg-config
   libembree-dev libeigen3-dev libtinygltf-dev nlohmann-json3-dev
@@ -15,6 +16,7 @@ build=(
   liblmdb-dev libzstd-dev libxxhash-dev libhwy-dev
   libyaml-cpp-dev libpng-dev libjpeg-dev libcairo2-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-dnn-dev
+  libopenvdb-dev libboost-dev
   libspdlog-dev libfmt-dev libcli11-dev libexpected-dev
   ca-certificates
 )
@@ -28,7 +30,7 @@ test=(
 bench=(libbenchmark-dev libopen3d-dev python3 python3-numpy)
 runtime=(
   libembree3-3 libzmq5 libprotobuf32 liblmdb0 libzstd1 libxxhash0 libhwy1
-  libyaml-cpp0.7 libpng16-16 libjpeg62-turbo libcairo2 libopencv-dnn406 libspdlog1.10 libfmt9
+  libyaml-cpp0.7 libpng16-16 libjpeg62-turbo libcairo2 libopencv-dnn406 libopenvdb10.0 libtbb12 libimath-3-1-29 libspdlog1.10 libfmt9
   ca-certificates
 )
 
