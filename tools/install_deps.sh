@@ -30,7 +30,8 @@ test=(
 bench=(libbenchmark-dev libopen3d-dev python3 python3-numpy)
 runtime=(
   libembree3-3 libzmq5 libprotobuf32 liblmdb0 libzstd1 libxxhash0 libhwy1
-  libyaml-cpp0.7 libpng16-16 libjpeg62-turbo libcairo2 libopencv-dnn406 libopenvdb10.0 libtbb12 libimath-3-1-29 libspdlog1.10 libfmt9
+  libyaml-cpp0.7 libpng16-16 libjpeg62-turbo libcairo2 libopencv-dnn406 libspdlog1.10 libfmt9
+  libopenvdb10.0 libtbb12 libimath-3-1-29
   ca-certificates
 )
 

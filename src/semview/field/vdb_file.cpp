@@ -197,6 +197,23 @@ void read_into(SemanticVolume& volume,
   }
 }
 
+std::vector<std::string> class_names_of(const openvdb::MetaMap& meta) {
+  std::vector<std::string> names;
+  std::istringstream lines(value_of<std::string>(meta, kClassesKey));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || std::ranges::find(names, line) != names.end()) {
+      throw Refusal{ErrorCode::kDataLoss,
+                    fmt::format("class name '{}' is empty or there twice", line)};
+    }
+    names.push_back(line);
+  }
+  if (names.size() > static_cast<std::size_t>(kMaxClasses)) {
+    throw Refusal{ErrorCode::kDataLoss,
+                  fmt::format("{} classes, expected up to {}", names.size(), kMaxClasses)};
+  }
+  return names;
+}
+
 StoredVolume volume_of(const openvdb::MetaMap& meta, const openvdb::GridPtrVec& grids) {
   if (!meta.getMetadata<openvdb::Int32Metadata>(kFormatKey)) {
     throw Refusal{ErrorCode::kInvalidArgument, "an OpenVDB file, but not one of `semview fuse`"};
@@ -205,9 +222,7 @@ StoredVolume volume_of(const openvdb::MetaMap& meta, const openvdb::GridPtrVec& 
     throw Refusal{ErrorCode::kUnimplemented,
                   fmt::format("format {}, this version reads {}", format, kFormat)};
   }
-  std::vector<std::string> names;
-  std::istringstream lines(value_of<std::string>(meta, kClassesKey));
-  for (std::string line; std::getline(lines, line);) names.push_back(line);
+  const std::vector<std::string> names = class_names_of(meta);
   const VolumeShape shape{value_of<double>(meta, kVoxelKey),
                           value_of<double>(meta, kTruncationKey)};
   if (Status status = validate(shape); !status) {
