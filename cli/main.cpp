@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     semview::cli::add_map_verb(app, exit_code);
     semview::cli::add_simulate_verb(app, exit_code);
+    semview::cli::add_fuse_verb(app, exit_code);
     semview::cli::add_precompute_verb(app, exit_code);
     semview::cli::add_cache_verb(app, exit_code);
     semview::cli::add_weights_verb(app, exit_code);

@@ -22,6 +22,7 @@ inline constexpr int kExitUsage = 2;
 /// Adds a verb to `app`; when it has run, `exit_code` holds the program's exit code.
 void add_map_verb(CLI::App& app, int& exit_code);
 void add_precompute_verb(CLI::App& app, int& exit_code);
+void add_fuse_verb(CLI::App& app, int& exit_code);
 void add_cache_verb(CLI::App& app, int& exit_code);
 void add_weights_verb(CLI::App& app, int& exit_code);
 void add_view_verb(CLI::App& app, int& exit_code);

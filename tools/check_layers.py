@@ -82,7 +82,7 @@ MODULES = {
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
     "experiments/paper2017": Module(SERVICE | {"service", "localization", "observation", "evaluation",
                                                "picture", "client/robot"}, set()),
-    "cli": Module(SERVICE | {"service", "segmentation", "picture", "localization", "observation", "simulation",
+    "cli": Module(SERVICE | {"service", "field", "segmentation", "picture", "localization", "observation", "simulation",
                              "places", "evaluation", "benchmark", "server", "client/lib", "client/load",
                              "client/robot", "experiments/paper2017"},
                   {"CLI11", "nlohmann-json"}),

@@ -104,9 +104,9 @@ Result<ObservationCamera> camera_of_size(const ObservationCamera& camera,
   return camera;
 }
 
-/// The labels of a file, their ids within the class table.
-Result<LabelImage> read_checked_labels(const std::filesystem::path& path,
-                                       const ClassTable& classes) {
+}  // namespace
+
+Result<LabelImage> read_label_image(const std::filesystem::path& path, const ClassTable& classes) {
   SEMVIEW_TRY(LabelImage labels, read_png_grey(path));
   for (int row = 0; row < labels.rows(); ++row) {
     for (int column = 0; column < labels.columns(); ++column) {
@@ -125,8 +125,6 @@ Result<LabelImage> read_checked_labels(const std::filesystem::path& path,
   }
   return labels;
 }
-
-}  // namespace
 
 Result<ObservationCamera> parse_observation_camera(const YamlNode& document) {
   SEMVIEW_TRY(const YamlNode format_node, document.at("format"));
@@ -174,7 +172,7 @@ Result<Observation> read_labels(const std::filesystem::path& path,
                                 const ObservationSetup& setup,
                                 double stamp_s,
                                 const PanoramaCamera& profile) {
-  SEMVIEW_TRY(const LabelImage labels, read_checked_labels(path, setup.classes));
+  SEMVIEW_TRY(const LabelImage labels, read_label_image(path, setup.classes));
   SEMVIEW_TRY(const ObservationCamera camera, camera_of_size(setup.camera, labels, path.string()));
   return Observation{
       setup.classes, resample(labels, camera, profile), stamp_s, base_from_eye(camera)};

@@ -33,6 +33,10 @@ Result<ObservationCamera> parse_observation_camera(const YamlNode& document);
 /// The keys of a setup as text that `parse_observation_setup` reads back.
 std::string format_observation_setup(const ObservationSetup& setup);
 
+/// The labels of a file as the camera took them (8-bit ids, 255 = unknown).
+/// @errors those of read_png_grey; kInvalidArgument: an id past the class table, with its pixel.
+Result<LabelImage> read_label_image(const std::filesystem::path& path, const ClassTable& classes);
+
 /// Reads the label image `path` (8-bit ids, 255 = unknown) and resamples it to `profile`.
 /// @errors those of read_png_grey; kInvalidArgument: a size other than the camera's, or an id past
 /// the class table, with the first such pixel.

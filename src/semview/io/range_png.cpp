@@ -17,4 +17,12 @@ Image<std::uint16_t> millimetres(const RangeImage& ranges_m) {
   return result;
 }
 
+Image<float> depth_m(const Image<std::uint16_t>& millimetres) {
+  Image<float> depths(millimetres.rows(), millimetres.columns());
+  for (std::size_t i = 0; i < depths.pixels().size(); ++i) {
+    depths.pixels()[i] = static_cast<float>(millimetres.pixels()[i]) / 1000.0F;
+  }
+  return depths;
+}
+
 }  // namespace semview::io

@@ -13,4 +13,7 @@ namespace semview::io {
 /// nearer than half a millimetre is 1, since 0 is taken.
 Image<std::uint16_t> millimetres(const RangeImage& ranges_m);
 
+/// The depths of a 16-bit image of whole millimetres; 0, not measured, stays 0.
+Image<float> depth_m(const Image<std::uint16_t>& millimetres);
+
 }  // namespace semview::io

@@ -13,6 +13,7 @@
 
 #include "semview/core/check.hpp"
 #include "semview/io/png.hpp"
+#include "semview/io/range_png.hpp"
 #include "semview/io/text_file.hpp"
 
 namespace semview::io {
@@ -171,6 +172,16 @@ Result<Observation> read_frame(const RunLog& log,
                             frame.stamp_s));
   }
   return read_labels(log.directory / frame.labels, log.setup, frame.stamp_s, profile);
+}
+
+Result<Image<float>> read_depth(const RunLog& log, std::size_t index) {
+  SEMVIEW_CHECK(index < log.frames.size());
+  const FrameFiles& frame = log.frames[index];
+  if (frame.depth.empty()) {
+    return fail(ErrorCode::kNotFound, "no depth in frames.csv");
+  }
+  SEMVIEW_TRY(const Image<std::uint16_t> millimetres, read_png_grey16(log.directory / frame.depth));
+  return depth_m(millimetres);
 }
 
 Result<RunLogWriter> RunLogWriter::create(const std::filesystem::path& directory,

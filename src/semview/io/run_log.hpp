@@ -45,6 +45,10 @@ Result<RunLog> read_run_log(const std::filesystem::path& directory);
 /// @errors kNotFound: the frame has no labels, or their file is missing; others as `read_labels`.
 Result<Observation> read_frame(const RunLog& log, std::size_t index, const PanoramaCamera& profile);
 
+/// The depth of frame `index`, 16-bit PNG in whole millimetres, 0 where nothing was measured.
+/// @errors kNotFound: the frame has no depth, or its file is missing; those of read_png_grey16.
+Result<Image<float>> read_depth(const RunLog& log, std::size_t index);
+
 /// Writes a run log: frames one by one, trajectories at the end.
 class RunLogWriter {
  public:

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Trajectories in the text format of the TUM RGB-D benchmark, read as planar poses.
+/// Trajectories in the text format of the TUM RGB-D benchmark, as planar poses and as poses in
+/// space.
 #pragma once
 
 #include <filesystem>
 #include <span>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "semview/core/result.hpp"
 #include "semview/geometry/pose2.hpp"
@@ -33,5 +36,23 @@ Status write_tum(const std::filesystem::path& path, std::span<const StampedPose2
 /// shorter way. `poses` must be in order of stamps. At a sample's own stamp it is that sample.
 /// @errors kOutOfRange: no poses, or `stamp_s` before the first or after the last.
 Result<Pose2> interpolate(std::span<const StampedPose2> poses, double stamp_s);
+
+struct StampedPose3 {
+  double stamp_s = 0.0;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+};
+
+/// Reads the same lines with height and tilt. A pose that is not finite stays in its place:
+/// trackers write it where they were lost.
+/// @errors as `read_tum`, but for the pose's numbers that are not finite.
+Result<std::vector<StampedPose3>> read_tum_poses(const std::filesystem::path& path);
+
+/// The pose at `stamp_s`: a sample's own, or between the two samples around it, position linearly
+/// and rotation along the shorter way. `poses` must be in order of stamps.
+/// @errors kOutOfRange: no poses, `stamp_s` before the first or after the last, between two that
+/// are more than `max_gap_s` apart, or next to one that is not finite.
+Result<Eigen::Isometry3d> interpolate(std::span<const StampedPose3> poses,
+                                      double stamp_s,
+                                      double max_gap_s);
 
 }  // namespace semview::io

@@ -229,6 +229,10 @@ void read_geometry_kind(MapFile& file, YamlFields& fields) {
                  "objects are given for a mesh",
                  "they belong to a drawing; a mesh has its heights already");
   }
+  file.volume = read_text(fields, "volume", Need::kOptional, {});
+  if (file.volume.line > 0 && !stays_inside(fields, "volume", file.volume.text)) {
+    file.volume.text.clear();
+  }
   const bool refused = fields.line_of("labels") > 0 || fields.misspelt("labels") ||
                        fields.line_of("mesh") > 0 || fields.misspelt("mesh");
   if (file.labels.line == 0 && file.mesh.line == 0 && refused) return;
@@ -278,6 +282,7 @@ std::optional<MapFile> read_map_file(const Path& path, MapReport& report) {
                       "labels",
                       "mesh",
                       "objects",
+                      "volume",
                       "ceiling",
                       "ground",
                       "outside",

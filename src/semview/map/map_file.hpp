@@ -51,6 +51,7 @@ struct MapFile {
   TextField labels;  ///< either this or `mesh`
   TextField mesh;
   TextField objects;  ///< a GeoJSON file; only beside `labels`
+  TextField volume;   ///< the semantic volume that the mesh is the surface of; may be absent
   TextField image;    ///< the occupancy image for ROS tools; may be absent
   double resolution_m = 0.0;
   Pose2 origin;

@@ -250,6 +250,7 @@ std::optional<SemanticMap> read_bundle(const Path& path,
     if (!mesh) return std::nullopt;
     map = map_of(*file);
     map.geometry = *std::move(mesh);
+    if (!file->volume.text.empty()) map.volume = file->path.parent_path() / file->volume.text;
   } else {
     if (!read_columns(*file, options, report, map)) return std::nullopt;
   }

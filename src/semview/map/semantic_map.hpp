@@ -47,6 +47,8 @@ struct SemanticMap {
   std::variant<ColumnMap, MeshGeometry> geometry;
   PlanObjects objects;
   Fingerprint fingerprint;
+  /// The file of the semantic volume that a fused map is the surface of; of other maps empty.
+  std::filesystem::path volume;
 
   const ColumnMap* columns() const { return std::get_if<ColumnMap>(&geometry); }
   const MeshGeometry* mesh() const { return std::get_if<MeshGeometry>(&geometry); }

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "duration_text.hpp"
+#include "fuse_frames.hpp"
+#include "semview/field/vdb_file.hpp"
+#include "semview/io/output_path.hpp"
+#include "stop_signals.hpp"
+#include "verb.hpp"
+#include "volume_bundle.hpp"
+
+namespace semview::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::filesystem::path log;
+  std::filesystem::path output;
+  FrameOptions frames;
+  field::VolumeShape shape;
+  field::FusionConfig fusion;
+  std::size_t every = 1;
+};
+
+/// What the result depends on: a fusion goes on only where all of it agrees.
+std::string source_of(const Options& options, const FuseFrames& frames) {
+  return fmt::format(
+      "log {} of {} frames, every {}, poses '{}', labels '{}', segment '{}', up {}, depth {} to {} "
+      "m",
+      std::filesystem::weakly_canonical(options.log).filename().string(),
+      frames.size(),
+      options.every,
+      options.frames.poses.filename().string(),
+      options.frames.labels.filename().string(),
+      options.frames.segment,
+      options.frames.up,
+      options.fusion.min_depth_m,
+      options.fusion.max_depth_m);
+}
+
+Result<field::StoredVolume> open_volume(const std::filesystem::path& file,
+                                        const Options& options,
+                                        const FuseFrames& frames) {
+  const std::string source = source_of(options, frames);
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    return field::StoredVolume{{options.shape, frames.classes()}, 0, source};
+  }
+  SEMVIEW_TRY(field::StoredVolume stored, field::read_vdb(file));
+  const bool same = stored.source == source && stored.volume.shape() == options.shape &&
+                    stored.volume.classes() == frames.classes();
+  if (same) return stored;
+  return fail(Error{ErrorCode::kAlreadyExists,
+                    fmt::format("{}: holds another fusion ({})", file.string(), stored.source),
+                    {},
+                    "remove it, or name another output: -o"});
+}
+
+/// One line that is written over on a terminal, a line every two seconds otherwise.
+class Progress {
+ public:
+  Progress(std::size_t first, std::size_t total) : first_(first), total_(total) {}
+
+  void show(std::size_t done) {
+    const auto now = Clock::now();
+    if (done < total_ && now < next_) return;
+    next_ = now + (on_terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(2000));
+    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+    const double a_frame_s =
+        elapsed_s / static_cast<double>(std::max<std::size_t>(done - first_, 1));
+    fmt::print("{}{} of {} frames, {} left{}",
+               on_terminal_ ? "\r" : "",
+               done,
+               total_,
+               duration_text(a_frame_s * static_cast<double>(total_ - done)),
+               on_terminal_ ? "   " : "\n");
+    std::fflush(stdout);
+  }
+  void finish() const {
+    if (on_terminal_) fmt::print("\n");
+  }
+
+ private:
+  bool on_terminal_ = isatty(STDOUT_FILENO) == 1;
+  std::size_t first_;
+  std::size_t total_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_ = start_;
+};
+
+/// Fuses what is left, as far as no one asks to stop.
+/// @return how many frames were skipped
+Result<std::size_t> fuse_frames(const FuseFrames& frames,
+                                const Options& options,
+                                const std::filesystem::path& file,
+                                field::StoredVolume& stored) {
+  constexpr auto kBetweenSaves = std::chrono::seconds(30);
+  ThreadPool pool;
+  Progress progress(stored.frames, frames.size());
+  std::size_t skipped = 0;
+  auto saved = Clock::now();
+  for (; stored.frames < frames.size() && !stop_asked(); ++stored.frames) {
+    progress.show(stored.frames);
+    if (stored.frames % options.every != 0) continue;
+    const Result<field::DepthFrame> frame = frames.read(stored.frames);
+    const Result<field::FusedFrame> fused =
+        frame ? field::fuse(*frame, options.fusion, pool, stored.volume) : fail(frame.error());
+    if (!fused && fused.error().code == ErrorCode::kResourceExhausted) return fail(fused.error());
+    if (!fused) {
+      ++skipped;
+      fmt::print(stderr, "semview: frame {} skipped: {}\n", stored.frames, fused.error().message);
+    }
+    if (Clock::now() - saved > kBetweenSaves) {
+      // This frame is in: a fusion that goes on from here begins after it.
+      ++stored.frames;
+      const Status written = field::write_vdb(file, stored);
+      --stored.frames;
+      SEMVIEW_TRY_STATUS(written);
+      saved = Clock::now();
+    }
+  }
+  progress.show(stored.frames);
+  progress.finish();
+  SEMVIEW_TRY_STATUS(field::write_vdb(file, stored));
+  return skipped;
+}
+
+/// The program's exit code.
+Result<int> run(const Options& options) {
+  SEMVIEW_TRY_STATUS(field::validate(options.shape));
+  SEMVIEW_TRY_STATUS(field::validate(options.fusion));
+  const bool is_file = options.output.extension() == ".vdb";
+  const std::filesystem::path file = is_file ? options.output : options.output / "volume.vdb";
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  SEMVIEW_TRY_STATUS(io::check_output_folder(folder));
+  SEMVIEW_TRY(io::RunLog log, io::read_run_log(options.log));
+  SEMVIEW_TRY(const FuseFrames frames, FuseFrames::open(std::move(log), options.frames));
+  SEMVIEW_TRY(field::StoredVolume stored, open_volume(file, options, frames));
+  ask_to_stop_on_signals();
+  SEMVIEW_TRY(const std::size_t skipped, fuse_frames(frames, options, file, stored));
+  if (stored.frames < frames.size()) {
+    fmt::print(stderr,
+               "semview: stopped after {} of {} frames\n  run the same command again to go on\n",
+               stored.frames,
+               frames.size());
+    return kExitFailed;
+  }
+  SEMVIEW_TRY(const BundleFindings bundle,
+              write_volume_bundle(folder, file.filename(), stored.volume));
+  fmt::print("{}: {} blocks, {} triangles, floor at {:.3f} m; {} frames skipped\n",
+             folder.string(),
+             stored.volume.block_count(),
+             bundle.triangles,
+             bundle.ground_height_m,
+             skipped);
+  return 0;
+}
+
+}  // namespace
+
+void add_fuse_verb(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("fuse", "Make a semantic volume of a log with depth images");
+  verb->description(
+      "Fuses the depth images, labels and colours of a run log into a truncated signed distance\n"
+      "field, an OpenVDB file, and writes its surface beside it as a mesh map. Frames that cannot\n"
+      "be used are skipped with a line each. Ctrl-C stops cleanly; the same command goes on.");
+  verb->add_option("LOG", options->log, "Run log with depth/ and poses.txt")->required();
+  verb->add_option("-o,--out", options->output, "Folder of the map, or its volume's .vdb file")
+      ->required();
+  verb->add_option("--voxel", options->shape.voxel_m, "Edge of a voxel, m")->capture_default_str();
+  verb->add_option("--truncation", options->shape.truncation_m, "Distances are kept up to here, m")
+      ->capture_default_str();
+  verb->add_option("--max-depth", options->fusion.max_depth_m, "Farther is not fused, m")
+      ->capture_default_str();
+  verb->add_option(
+      "--poses", options->frames.poses, "TUM file, map_from_camera; default: the log's");
+  verb->add_option(
+      "--labels", options->frames.labels, "Folder of label images named as the depths");
+  verb->add_option("--segment", options->frames.segment, "Network that labels the images");
+  verb->add_option("--every", options->every, "Take every Nth frame")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--up", options->frames.up, "What points up in the poses' frame: z or -y")
+      ->check(CLI::IsMember({"z", "-y"}))
+      ->capture_default_str();
+  verb->footer("Example:\n  semview fuse room_log -o room --segment deeplab_ade20k32");
+  verb->callback([options, &exit_code] {
+    const Result<int> code = run(*options);
+    exit_code = code ? *code : report(fail(code.error()));
+  });
+}
+
+}  // namespace semview::cli
