@@ -72,7 +72,7 @@ class Progress {
 
   void show(std::size_t done) {
     const auto now = Clock::now();
-    if (done < total_ && now < next_) return;
+    if (done < total_ && (done == first_ || now < next_)) return;
     next_ = now + (on_terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(2000));
     const double elapsed_s = std::chrono::duration<double>(now - start_).count();
     const double a_frame_s =
@@ -144,6 +144,9 @@ Result<int> run(const Options& options) {
   SEMVIEW_TRY_STATUS(io::check_output_folder(folder));
   SEMVIEW_TRY(io::RunLog log, io::read_run_log(options.log));
   SEMVIEW_TRY(const FuseFrames frames, FuseFrames::open(std::move(log), options.frames));
+  std::error_code made;
+  std::filesystem::create_directories(folder, made);
+  if (made) return io::cannot_write(folder, made.value());
   SEMVIEW_TRY(field::StoredVolume stored, open_volume(file, options, frames));
   ask_to_stop_on_signals();
   SEMVIEW_TRY(const std::size_t skipped, fuse_frames(frames, options, file, stored));

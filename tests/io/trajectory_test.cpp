@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "semview/io/trajectory.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,6 +94,49 @@ TEST(InterpolateTest, OutsideTheTrajectoryIsAnError) {
   EXPECT_EQ(interpolate(poses, 0.999).error().code, ErrorCode::kOutOfRange);
   EXPECT_EQ(interpolate(poses, 2.001).error().code, ErrorCode::kOutOfRange);
   EXPECT_EQ(interpolate({}, 1.0).error().code, ErrorCode::kOutOfRange);
+}
+
+TEST(PosesTest, HeightAndTiltStay) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.txt", "1 1 2 3 0.70710678 0 0 0.70710678\n");
+  const Result<std::vector<StampedPose3>> poses = read_tum_poses(path);
+  ASSERT_TRUE(poses) << poses.error().message;
+  EXPECT_LT((poses->front().pose * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(1, 1, 3)).norm(),
+            1e-9);
+}
+
+TEST(PosesTest, BetweenTwoPosesThatAreCloseInTimeAndNotBeyond) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.txt",
+                                 "0 0 0 0 0 0 0 1\n"
+                                 "0.2 1 0 0 0 0 0.70710678 0.70710678\n"
+                                 "2 1 0 0 0 0 0 1\n");
+  const std::vector<StampedPose3> poses = *read_tum_poses(path);
+  const Result<Eigen::Isometry3d> between = interpolate(poses, 0.1, 0.25);
+  ASSERT_TRUE(between) << between.error().message;
+  const double half = std::sqrt(0.5);
+  EXPECT_LT((*between * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0.5 + half, half, 0)).norm(),
+            1e-8);
+  EXPECT_TRUE(interpolate(poses, 2.0, 0.25)) << "a sample's own stamp";
+  EXPECT_THAT(interpolate(poses, 1.0, 0.25).error().message, HasSubstr("1.800 s apart"));
+  EXPECT_EQ(interpolate(poses, -0.1, 0.25).error().code, ErrorCode::kOutOfRange);
+  EXPECT_EQ(interpolate(poses, 2.1, 0.25).error().code, ErrorCode::kOutOfRange);
+}
+
+TEST(PosesTest, ALostTrackerLosesItsOwnStretchOnly) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.txt",
+                                 "0 0 0 0 0 0 0 1\n"
+                                 "0.1 nan nan nan nan nan nan nan\n"
+                                 "0.2 1 0 0 0 0 0 1\n");
+  const Result<std::vector<StampedPose3>> poses = read_tum_poses(path);
+  ASSERT_TRUE(poses) << poses.error().message;
+  EXPECT_TRUE(interpolate(*poses, 0.0, 1.0));
+  EXPECT_TRUE(interpolate(*poses, 0.2, 1.0));
+  for (const double stamp_s : {0.05, 0.1, 0.15}) {
+    EXPECT_THAT(interpolate(*poses, stamp_s, 1.0).error().message, HasSubstr("lost"));
+  }
+  EXPECT_FALSE(read_tum(path)) << "planar trajectories have no gaps";
 }
 
 }  // namespace
