@@ -29,22 +29,19 @@ struct Options {
   field::VolumeShape shape;
   field::FusionConfig fusion;
   std::size_t every = 1;
+  std::size_t min_frames = 2;  ///< that must have seen a surface
 };
 
 /// What the result depends on: a fusion goes on only where all of it agrees.
 std::string source_of(const Options& options, const FuseFrames& frames) {
-  return fmt::format(
-      "log {} of {} frames, every {}, poses '{}', labels '{}', segment '{}', up {}, depth {} to {} "
-      "m",
-      std::filesystem::weakly_canonical(options.log).filename().string(),
-      frames.size(),
-      options.every,
-      options.frames.poses.filename().string(),
-      options.frames.labels.filename().string(),
-      options.frames.segment,
-      options.frames.up,
-      options.fusion.min_depth_m,
-      options.fusion.max_depth_m);
+  return fmt::format("log {} ({}), every {}, labels '{}', segment '{}', depth {} to {} m",
+                     std::filesystem::weakly_canonical(options.log).filename().string(),
+                     to_hex(frames.fingerprint()),
+                     options.every,
+                     options.frames.labels.filename().string(),
+                     options.frames.segment,
+                     options.fusion.min_depth_m,
+                     options.fusion.max_depth_m);
 }
 
 Result<field::StoredVolume> open_volume(const std::filesystem::path& file,
@@ -53,7 +50,7 @@ Result<field::StoredVolume> open_volume(const std::filesystem::path& file,
   const std::string source = source_of(options, frames);
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
-    return field::StoredVolume{{options.shape, frames.classes()}, 0, source};
+    return field::StoredVolume{{options.shape, frames.classes()}, 0, 0, source};
   }
   SEMVIEW_TRY(field::StoredVolume stored, field::read_vdb(file));
   const bool same = stored.source == source && stored.volume.shape() == options.shape &&
@@ -98,15 +95,13 @@ class Progress {
 };
 
 /// Fuses what is left, as far as no one asks to stop.
-/// @return how many frames were skipped
-Result<std::size_t> fuse_frames(const FuseFrames& frames,
-                                const Options& options,
-                                const std::filesystem::path& file,
-                                field::StoredVolume& stored) {
+Status fuse_frames(const FuseFrames& frames,
+                   const Options& options,
+                   const std::filesystem::path& file,
+                   field::StoredVolume& stored) {
   constexpr auto kBetweenSaves = std::chrono::seconds(30);
   ThreadPool pool;
   Progress progress(stored.frames, frames.size());
-  std::size_t skipped = 0;
   auto saved = Clock::now();
   for (; stored.frames < frames.size() && !stop_asked(); ++stored.frames) {
     progress.show(stored.frames);
@@ -116,7 +111,7 @@ Result<std::size_t> fuse_frames(const FuseFrames& frames,
         frame ? field::fuse(*frame, options.fusion, pool, stored.volume) : fail(frame.error());
     if (!fused && fused.error().code == ErrorCode::kResourceExhausted) return fail(fused.error());
     if (!fused) {
-      ++skipped;
+      ++stored.skipped;
       fmt::print(stderr, "semview: frame {} skipped: {}\n", stored.frames, fused.error().message);
     }
     if (Clock::now() - saved > kBetweenSaves) {
@@ -130,26 +125,38 @@ Result<std::size_t> fuse_frames(const FuseFrames& frames,
   }
   progress.show(stored.frames);
   progress.finish();
-  SEMVIEW_TRY_STATUS(field::write_vdb(file, stored));
-  return skipped;
+  return field::write_vdb(file, stored);
+}
+
+/// What is written, and where.
+struct Output {
+  std::filesystem::path folder;
+  std::filesystem::path volume;
+};
+
+Output output_of(const std::filesystem::path& output) {
+  if (output.extension() != ".vdb") return {output, output / "volume.vdb"};
+  return {output.has_parent_path() ? output.parent_path() : ".", output};
 }
 
 /// The program's exit code.
 Result<int> run(const Options& options) {
   SEMVIEW_TRY_STATUS(field::validate(options.shape));
   SEMVIEW_TRY_STATUS(field::validate(options.fusion));
-  const bool is_file = options.output.extension() == ".vdb";
-  const std::filesystem::path file = is_file ? options.output : options.output / "volume.vdb";
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  SEMVIEW_TRY_STATUS(io::check_output_folder(folder));
+  const Output output = output_of(options.output);
+  SEMVIEW_TRY_STATUS(io::check_output_folder(output.folder));
+  SEMVIEW_TRY_STATUS(check_volume_bundle(output.folder, output.volume.filename()));
   SEMVIEW_TRY(io::RunLog log, io::read_run_log(options.log));
   SEMVIEW_TRY(const FuseFrames frames, FuseFrames::open(std::move(log), options.frames));
   std::error_code made;
-  std::filesystem::create_directories(folder, made);
-  if (made) return io::cannot_write(folder, made.value());
-  SEMVIEW_TRY(field::StoredVolume stored, open_volume(file, options, frames));
+  std::filesystem::create_directories(output.folder, made);
+  if (made) return io::cannot_write(output.folder, made.value());
+  SEMVIEW_TRY(field::StoredVolume stored, open_volume(output.volume, options, frames));
   ask_to_stop_on_signals();
-  SEMVIEW_TRY(const std::size_t skipped, fuse_frames(frames, options, file, stored));
+  if (stored.frames > 0) {
+    fmt::print("{}: goes on after {} frames\n", output.volume.string(), stored.frames);
+  }
+  SEMVIEW_TRY_STATUS(fuse_frames(frames, options, output.volume, stored));
   if (stored.frames < frames.size()) {
     fmt::print(stderr,
                "semview: stopped after {} of {} frames\n  run the same command again to go on\n",
@@ -157,14 +164,17 @@ Result<int> run(const Options& options) {
                frames.size());
     return kExitFailed;
   }
+  field::VolumeMeshConfig surface;
+  surface.min_weight = static_cast<float>(options.min_frames);
   SEMVIEW_TRY(const BundleFindings bundle,
-              write_volume_bundle(folder, file.filename(), stored.volume));
-  fmt::print("{}: {} blocks, {} triangles, floor at {:.3f} m; {} frames skipped\n",
-             folder.string(),
-             stored.volume.block_count(),
+              write_volume_bundle(output.folder, output.volume.filename(), stored.volume, surface));
+  fmt::print("{}: {} triangles, floor at {:.3f} m; {} of {} frame{} skipped\n",
+             output.folder.string(),
              bundle.triangles,
              bundle.ground_height_m,
-             skipped);
+             stored.skipped,
+             frames.size(),
+             frames.size() == 1 ? "" : "s");
   return 0;
 }
 
@@ -187,14 +197,18 @@ void add_fuse_verb(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option(
       "--poses", options->frames.poses, "TUM file, map_from_camera; default: the log's");
-  verb->add_option(
-      "--labels", options->frames.labels, "Folder of label images named as the depths");
+  verb->add_option("--labels",
+                   options->frames.labels,
+                   "Folder of label images, or lists of instance masks, named as the depths");
   verb->add_option("--segment", options->frames.segment, "Network that labels the images");
   verb->add_option("--every", options->every, "Take every Nth frame")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--up", options->frames.up, "What points up in the poses' frame: z or -y")
-      ->check(CLI::IsMember({"z", "-y"}))
+  verb->add_option("--min-frames", options->min_frames, "A surface was seen by so many frames")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb->add_option(
+          "--up", options->frames.up, "What points up in the poses' frame: z, -y, or x,y,z")
       ->capture_default_str();
   verb->footer("Example:\n  semview fuse room_log -o room --segment deeplab_ade20k32");
   verb->callback([options, &exit_code] {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "semview/core/hash.hpp"
 #include "semview/core/result.hpp"
 #include "semview/field/fusion.hpp"
 #include "semview/io/run_log.hpp"
@@ -16,10 +17,12 @@
 namespace semview::cli {
 
 struct FrameOptions {
-  std::filesystem::path poses;   ///< "": the log's `poses.txt`
-  std::filesystem::path labels;  ///< a folder with an image of each frame's name; "": the log's own
-  std::string segment;           ///< the network that labels the images; "": none
-  std::string up = "z";          ///< the axis of the poses' frame that points up: z or -y
+  std::filesystem::path poses;  ///< "": the log's `poses.txt`
+  /// A folder with an image of label ids or a list of instance masks of each frame's name; "": the
+  /// log's own labels.
+  std::filesystem::path labels;
+  std::string segment;   ///< the network that labels the images; "": none
+  std::string up = "z";  ///< the axis of the poses' frame that points up: z or -y
 };
 
 class FuseFrames {
@@ -30,6 +33,8 @@ class FuseFrames {
 
   std::size_t size() const { return log_.frames.size(); }
   const ClassTable& classes() const;
+  /// Of the camera, the poses, and the frames' stamps and names: another log has another.
+  Fingerprint fingerprint() const;
 
   /// @errors why the frame cannot be used
   Result<field::DepthFrame> read(std::size_t index) const;

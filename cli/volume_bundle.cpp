@@ -2,6 +2,7 @@
 #include "volume_bundle.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -10,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "semview/core/thread_pool.hpp"
-#include "semview/field/volume_mesh.hpp"
+#include "semview/field/floor_height.hpp"
 #include "semview/io/text_file.hpp"
 #include "semview/io/yaml_document.hpp"
 #include "semview/map/gltf_write.hpp"
@@ -42,13 +43,46 @@ std::string map_yaml(const std::filesystem::path& folder,
   return text;
 }
 
+/// Does the map.yaml say `volume: <volume_file>`?
+bool names_volume(const std::filesystem::path& map_yaml, const std::filesystem::path& volume_file) {
+  const Result<io::YamlNode> document = io::read_yaml(map_yaml);
+  if (!document) return false;
+  const std::optional<io::YamlNode> ours = document->find("semview");
+  const std::optional<io::YamlNode> volume =
+      ours ? ours->find("volume") : std::optional<io::YamlNode>();
+  return volume && volume->text().value_or("") == volume_file.string();
+}
+
 }  // namespace
+
+Status check_volume_bundle(const std::filesystem::path& folder,
+                           const std::filesystem::path& volume_file) {
+  std::error_code ignored;
+  const std::filesystem::path map_yaml = folder / "map.yaml";
+  const auto refuse = [](const std::filesystem::path& file, const std::string& what) {
+    return fail(Error{ErrorCode::kAlreadyExists,
+                      fmt::format("{}: {}", file.string(), what),
+                      {},
+                      "name another folder: -o"});
+  };
+  if (std::filesystem::exists(map_yaml, ignored)) {
+    if (names_volume(map_yaml, volume_file)) return {};
+    return refuse(map_yaml, fmt::format("is a map that is not of {}", volume_file.string()));
+  }
+  // Of a fusion that was stopped there is the volume.
+  const bool begun = std::filesystem::exists(folder / volume_file, ignored);
+  if (!begun && std::filesystem::exists(folder / "mesh.glb", ignored)) {
+    return refuse(folder / "mesh.glb", "is there already, and would be written over");
+  }
+  return {};
+}
 
 Result<BundleFindings> write_volume_bundle(const std::filesystem::path& folder,
                                            const std::filesystem::path& volume_file,
-                                           const field::SemanticVolume& volume) {
+                                           const field::SemanticVolume& volume,
+                                           const field::VolumeMeshConfig& surface) {
   ThreadPool pool;
-  SEMVIEW_TRY(const map::TriangleMesh mesh, field::mesh_of(volume, {}, pool));
+  SEMVIEW_TRY(const map::TriangleMesh mesh, field::mesh_of(volume, surface, pool));
   map::SemanticMap map;
   const auto known = volume.classes().names();
   std::vector<std::string> names(known.begin(), known.end());

@@ -11,8 +11,10 @@ namespace semview::field {
 namespace {
 
 StoredVolume small_volume() {
-  StoredVolume stored{
-      SemanticVolume(VolumeShape{0.04, 0.12}, ClassTable({"wall", "coffee table"})), 17, "a log"};
+  StoredVolume stored{SemanticVolume(VolumeShape{0.04, 0.12}, ClassTable({"wall", "coffee table"})),
+                      17,
+                      3,
+                      "a log"};
   for (const SemanticVolume::BlockIndex index : {VoxelIndex{-1, 0, 2}, VoxelIndex{3, -4, 0}}) {
     VoxelBlock& block = stored.volume.add_block(index);
     for (std::size_t p = 0; p < VoxelBlock::kVoxels; p += 3) {
@@ -51,6 +53,7 @@ TEST(VdbFileTest, AVolumeIsReadAsItWasWritten) {
   const auto read = read_vdb(folder.path() / "volume.vdb");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->frames, 17U);
+  EXPECT_EQ(read->skipped, 3U);
   EXPECT_EQ(read->source, "a log");
   expect_equal(read->volume, stored.volume);
 }

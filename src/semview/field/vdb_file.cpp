@@ -29,6 +29,7 @@ constexpr const char* kClassesKey = "semview_classes";
 constexpr const char* kVoxelKey = "semview_voxel_m";
 constexpr const char* kTruncationKey = "semview_truncation_m";
 constexpr const char* kFramesKey = "semview_frames";
+constexpr const char* kSkippedKey = "semview_skipped";
 constexpr const char* kSourceKey = "semview_source";
 
 using Block = VoxelBlock;
@@ -134,6 +135,7 @@ openvdb::MetaMap metadata_of(const StoredVolume& stored) {
   meta.insertMeta(kVoxelKey, openvdb::DoubleMetadata(stored.volume.shape().voxel_m));
   meta.insertMeta(kTruncationKey, openvdb::DoubleMetadata(stored.volume.shape().truncation_m));
   meta.insertMeta(kFramesKey, openvdb::Int64Metadata(static_cast<std::int64_t>(stored.frames)));
+  meta.insertMeta(kSkippedKey, openvdb::Int64Metadata(static_cast<std::int64_t>(stored.skipped)));
   meta.insertMeta(kSourceKey, openvdb::StringMetadata(stored.source));
   return meta;
 }
@@ -230,6 +232,7 @@ StoredVolume volume_of(const openvdb::MetaMap& meta, const openvdb::GridPtrVec& 
   }
   StoredVolume stored{SemanticVolume(shape, ClassTable(names)),
                       static_cast<std::uint64_t>(value_of<std::int64_t>(meta, kFramesKey)),
+                      static_cast<std::uint64_t>(value_of<std::int64_t>(meta, kSkippedKey)),
                       value_of<std::string>(meta, kSourceKey)};
   SemanticVolume& volume = stored.volume;
   read_into<openvdb::FloatGrid>(

@@ -15,7 +15,8 @@ namespace semview::field {
 struct StoredVolume {
   SemanticVolume volume;
   std::uint64_t frames = 0;  ///< of the source that were looked at, skipped ones included
-  std::string source;        ///< what it was made of and how; a fusion goes on only where it agrees
+  std::uint64_t skipped = 0;
+  std::string source;  ///< what it was made of and how; a fusion goes on only where it agrees
 };
 
 /// Writes beside the file and renames: what is there is whole at any time.

@@ -258,6 +258,24 @@ std::optional<SemanticMap> read_bundle(const Path& path,
   return map;
 }
 
+/// The map of a semantic volume: that of the map.yaml beside it.
+std::optional<SemanticMap> read_volume_bundle(const Path& volume,
+                                              const LoadOptions& options,
+                                              MapReport& report) {
+  const Path bundle = volume.parent_path() / "map.yaml";
+  std::error_code ignored;
+  if (std::filesystem::exists(bundle, ignored)) {
+    std::optional<SemanticMap> map = read_bundle(bundle, options, report);
+    if (!map || map->volume.filename() == volume.filename()) return map;
+  }
+  report.problems.push_back(
+      file_problem(Severity::kError,
+                   volume,
+                   "no map.yaml beside it names it as `volume:`",
+                   "`semview fuse` writes one when all frames are in; the same command goes on"));
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<SemanticMap> read_map(const Path& path,
@@ -279,6 +297,8 @@ std::optional<SemanticMap> read_map(const Path& path,
       map = read_bundle(path / "map.yaml", options, report);
     } else if (path.extension() == ".glb") {
       map = read_bare_glb(path, report);
+    } else if (path.extension() == ".vdb") {
+      map = read_volume_bundle(path, options, report);
     } else {
       map = read_bundle(path, options, report);
     }
