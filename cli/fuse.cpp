@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "duration_text.hpp"
+#include "fuse_check.hpp"
 #include "fuse_frames.hpp"
 #include "semview/field/vdb_file.hpp"
 #include "semview/io/output_path.hpp"
@@ -29,19 +31,31 @@ struct Options {
   field::VolumeShape shape;
   field::FusionConfig fusion;
   std::size_t every = 1;
-  std::size_t min_frames = 2;  ///< that must have seen a surface
+  std::size_t check_every = 0;  ///< of these every Nth is left out and compared; 0: none
+  std::size_t min_frames = 2;   ///< that must have seen a surface
 };
+
+enum class Use { kNone, kFuse, kCompare };
+
+Use use_of(std::size_t frame, const Options& options) {
+  if (frame % options.every != 0) return Use::kNone;
+  const std::size_t taken = frame / options.every;
+  const std::size_t n = options.check_every;
+  return n > 0 && taken % n == n / 2 ? Use::kCompare : Use::kFuse;
+}
 
 /// What the result depends on: a fusion goes on only where all of it agrees.
 std::string source_of(const Options& options, const FuseFrames& frames) {
-  return fmt::format("log {} ({}), every {}, labels '{}', segment '{}', depth {} to {} m",
-                     std::filesystem::weakly_canonical(options.log).filename().string(),
-                     to_hex(frames.fingerprint()),
-                     options.every,
-                     options.frames.labels.filename().string(),
-                     options.frames.segment,
-                     options.fusion.min_depth_m,
-                     options.fusion.max_depth_m);
+  return fmt::format(
+      "log {} ({}), every {} but every {}, labels '{}', segment '{}', depth {} to {} m",
+      std::filesystem::weakly_canonical(options.log).filename().string(),
+      to_hex(frames.fingerprint()),
+      options.every,
+      options.check_every,
+      options.frames.labels.filename().string(),
+      options.frames.segment,
+      options.fusion.min_depth_m,
+      options.fusion.max_depth_m);
 }
 
 Result<field::StoredVolume> open_volume(const std::filesystem::path& file,
@@ -105,7 +119,7 @@ Status fuse_frames(const FuseFrames& frames,
   auto saved = Clock::now();
   for (; stored.frames < frames.size() && !stop_asked(); ++stored.frames) {
     progress.show(stored.frames);
-    if (stored.frames % options.every != 0) continue;
+    if (use_of(stored.frames, options) != Use::kFuse) continue;
     const Result<field::DepthFrame> frame = frames.read(stored.frames);
     const Result<field::FusedFrame> fused =
         frame ? field::fuse(*frame, options.fusion, pool, stored.volume) : fail(frame.error());
@@ -126,6 +140,25 @@ Status fuse_frames(const FuseFrames& frames,
   progress.show(stored.frames);
   progress.finish();
   return field::write_vdb(file, stored);
+}
+
+/// Says how well the map predicts the frames that were left out of it.
+Status compare_left_out(const FuseFrames& frames,
+                        const Options& options,
+                        const map::TriangleMesh& mesh) {
+  std::vector<std::size_t> left_out;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (use_of(i, options) == Use::kCompare) left_out.push_back(i);
+  }
+  SEMVIEW_TRY(const LeftOutFindings findings,
+              check_left_out(frames, left_out, mesh, options.fusion.max_depth_m));
+  fmt::print(
+      "left out {} frame{}: median depth error {:.1f} mm, a surface for {:.1f} % of the pixels\n",
+      findings.frames,
+      findings.frames == 1 ? "" : "s",
+      1000.0 * findings.residuals.median_m(),
+      100.0 * findings.residuals.covered());
+  return {};
 }
 
 /// What is written, and where.
@@ -170,11 +203,14 @@ Result<int> run(const Options& options) {
               write_volume_bundle(output.folder, output.volume.filename(), stored.volume, surface));
   fmt::print("{}: {} triangles, floor at {:.3f} m; {} of {} frame{} skipped\n",
              output.folder.string(),
-             bundle.triangles,
+             bundle.mesh.triangles.size(),
              bundle.ground_height_m,
              stored.skipped,
              frames.size(),
              frames.size() == 1 ? "" : "s");
+  if (options.check_every > 0) {
+    SEMVIEW_TRY_STATUS(compare_left_out(frames, options, bundle.mesh));
+  }
   return 0;
 }
 
@@ -204,6 +240,9 @@ void add_fuse_verb(CLI::App& app, int& exit_code) {
   verb->add_option("--every", options->every, "Take every Nth frame")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  verb->add_option("--check-every",
+                   options->check_every,
+                   "Leave every Nth of these out and say how well the map predicts its depths");
   verb->add_option("--min-frames", options->min_frames, "A surface was seen by so many frames")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

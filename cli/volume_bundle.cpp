@@ -82,7 +82,7 @@ Result<BundleFindings> write_volume_bundle(const std::filesystem::path& folder,
                                            const field::SemanticVolume& volume,
                                            const field::VolumeMeshConfig& surface) {
   ThreadPool pool;
-  SEMVIEW_TRY(const map::TriangleMesh mesh, field::mesh_of(volume, surface, pool));
+  SEMVIEW_TRY(map::TriangleMesh mesh, field::mesh_of(volume, surface, pool));
   map::SemanticMap map;
   const auto known = volume.classes().names();
   std::vector<std::string> names(known.begin(), known.end());
@@ -106,7 +106,7 @@ Result<BundleFindings> write_volume_bundle(const std::filesystem::path& folder,
                                                   mesh,
                                                   has_floor,
                                                   ground_height_m)));
-  return BundleFindings{mesh.triangles.size(), ground_height_m};
+  return BundleFindings{std::move(mesh), ground_height_m};
 }
 
 }  // namespace semview::cli

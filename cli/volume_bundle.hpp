@@ -2,7 +2,6 @@
 /// The map bundle beside a semantic volume.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 
 #include "semview/core/result.hpp"
@@ -12,7 +11,7 @@
 namespace semview::cli {
 
 struct BundleFindings {
-  std::size_t triangles = 0;
+  map::TriangleMesh mesh;
   double ground_height_m = 0.0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `semview fuse` as a person or script calls it.
 #include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -26,6 +28,8 @@ using ::testing::HasSubstr;
 
 // Rendered depths (Redwood's living room), labels that a network predicted: see SOURCE.md there.
 const std::string kRoom = SEMVIEW_SOURCE_DIR "/tests/data/rgbd_livingroom1";
+// Depths of a real camera.
+const std::string kRealRoom = SEMVIEW_SOURCE_DIR "/tests/data/rgbd_dining_room";
 
 class FuseProgramTest : public ::testing::Test {
  protected:
@@ -212,6 +216,26 @@ TEST_F(FuseProgramTest, ARealLogBecomesARoomWithItsFloorWhereItIs) {
   EXPECT_NEAR(map->ground_height_m, -0.41, 0.015);
   EXPECT_EQ(map->classes.name(map->ground_label), "floor");
   EXPECT_GT(map->mesh()->mesh.triangles.size(), 5000U);
+}
+
+/// Median depth error of frames left out, of what `semview fuse` says, mm.
+double median_error_mm(const std::string& output) {
+  const std::string before = "median depth error ";
+  const std::size_t at = output.find(before);
+  return at == std::string::npos ? NAN : std::stod(output.substr(at + before.size()));
+}
+
+TEST_F(FuseProgramTest, FramesLeftOutAreSeenByTheMapWithinAVoxel) {
+  const Outcome rendered =
+      run_semview("fuse " + kRoom + " -o " + file("room") + " --up -y --check-every 5");
+  ASSERT_EQ(rendered.exit_code, 0) << rendered.output;
+  EXPECT_THAT(rendered.output, HasSubstr("left out 4 frames"));
+  EXPECT_LT(median_error_mm(rendered.output), 50.0);
+  const Outcome real = run_semview("fuse " + kRealRoom + " -o " + file("real") +
+                                   " --up -y --min-frames 1 --check-every 5");
+  ASSERT_EQ(real.exit_code, 0) << real.output;
+  EXPECT_THAT(real.output, HasSubstr("left out 1 frame:"));
+  EXPECT_LT(median_error_mm(real.output), 50.0);
 }
 
 }  // namespace
