@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -142,29 +143,27 @@ class Runner {
     settings_.runs = config_.runs;
     settings_.seed = config_.seed;
     settings_.engine = config_.engine;
-    std::vector<ClassSubset> subsets;
+    std::map<ClassSubset, std::set<int>> kinds;
     for (const Unit& unit : units_) {
       if (unit.finished) continue;
       SEMVIEW_TRY(const std::vector<Method> methods, methods_of(config_, *unit.row));
-      const bool learns = std::ranges::any_of(
-          methods, [](const Method& one) { return one.weights == WeightsKind::kLearned; });
-      if (learns && std::ranges::find(subsets, unit.row->classes) == subsets.end()) {
-        subsets.push_back(unit.row->classes);
+      for (const Method& method : methods) {
+        if (method.weights == WeightsKind::kLearned) kinds[unit.row->classes].insert(method.bands);
       }
     }
-    if (subsets.empty()) return {};
-    const std::vector<World> training = make_training_worlds(config_.world, pool_);
-    std::vector<std::optional<Result<similarity::WeightMatrix>>> learned(subsets.size());
-    pool_.parallel_for(subsets.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        learned[i] = learn_weights(training, subsets[i], settings_.plans, config_.engine);
-      }
-    });
-    for (std::size_t i = 0; i < subsets.size(); ++i) {
-      SEMVIEW_TRY(similarity::WeightMatrix matrix, *std::move(learned[i]));
-      SEMVIEW_TRY_STATUS(io::write_text_file(
-          config_.out / fmt::format("weights_{}.csv", name(subsets[i])), matrix.to_csv()));
-      settings_.learned.emplace(subsets[i], std::move(matrix));
+    if (kinds.empty()) return {};
+    SEMVIEW_TRY(settings_.learned,
+                learn_weights(make_training_worlds(config_.world, pool_),
+                              kinds,
+                              settings_.plans,
+                              config_.engine,
+                              pool_));
+    for (const auto& [kind, matrix] : settings_.learned) {
+      const auto& [classes, bands] = kind;
+      const std::string file = bands == Method().bands
+                                   ? fmt::format("weights_{}.csv", name(classes))
+                                   : fmt::format("weights_{}_{}_bands.csv", name(classes), bands);
+      SEMVIEW_TRY_STATUS(io::write_text_file(config_.out / file, matrix.to_csv()));
     }
     return {};
   }

@@ -26,6 +26,7 @@ std::vector<World> make_training_worlds(const WorldConfig& config, ThreadPool& p
 
 Result<similarity::WeightMatrix> learn_weights(std::span<const World> training,
                                                ClassSubset classes,
+                                               int bands,
                                                const std::filesystem::path& directory,
                                                const std::string& engine) {
   Row plain;
@@ -38,8 +39,10 @@ Result<similarity::WeightMatrix> learn_weights(std::span<const World> training,
                 open_row_map(plain, seed, true, directory, engine));
     const PanoramaCamera& camera = site->profile().camera;
     if (!learner) {
-      learner.emplace(
-          similarity::WeightLearnerConfig{}, raw_classes(), site->map().classes, camera);
+      learner.emplace(similarity::WeightLearnerConfig{.bands = bands},
+                      raw_classes(),
+                      site->map().classes,
+                      camera);
     }
     const RowWorld cut = cut_world(training[i], plain, camera);
     for (std::size_t stop = 0; stop < cut.truth.size(); ++stop) {
@@ -53,6 +56,33 @@ Result<similarity::WeightMatrix> learn_weights(std::span<const World> training,
   }
   if (!learner) return fail(ErrorCode::kFailedPrecondition, "no training worlds");
   return learner->matrix();
+}
+
+Result<LearnedWeights> learn_weights(std::span<const World> training,
+                                     const std::map<ClassSubset, std::set<int>>& kinds,
+                                     const std::filesystem::path& directory,
+                                     const std::string& engine,
+                                     ThreadPool& pool) {
+  // Bands one after the other: those of one subset draw the same plans.
+  const std::vector<std::pair<ClassSubset, std::set<int>>> subsets(kinds.begin(), kinds.end());
+  std::vector<std::vector<Result<similarity::WeightMatrix>>> learned(subsets.size());
+  pool.parallel_for(subsets.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const int bands : subsets[i].second) {
+        learned[i].push_back(learn_weights(training, subsets[i].first, bands, directory, engine));
+      }
+    }
+  });
+  LearnedWeights weights;
+  for (std::size_t i = 0; i < subsets.size(); ++i) {
+    auto next = learned[i].begin();
+    for (const int bands : subsets[i].second) {
+      SEMVIEW_TRY(similarity::WeightMatrix matrix, *std::move(next));
+      weights.emplace(std::pair(subsets[i].first, bands), std::move(matrix));
+      ++next;
+    }
+  }
+  return weights;
 }
 
 }  // namespace semview::paper2017

@@ -32,6 +32,22 @@ std::vector<Method> without_one_idea(const Method& ours, const Method& baseline)
   without("affine", "the map's distortion in the state").affine.reset();
   without("annealed_start", "a searched start").annealed_start.reset();
   without("small_noise", "small motion noise").motion = baseline.motion;
+  without("bands", "elevation bands").bands = 1;
+  return methods;
+}
+
+/// Ideas that ours leaves out.
+std::vector<Method> with_one_idea(const Method& ours) {
+  std::vector<Method> methods;
+  const auto with = [&](const char* idea, const char* title) -> Method& {
+    methods.push_back(ours);
+    methods.back().id = std::string("with_") + idea;
+    methods.back().title = std::string("ours with ") + title;
+    return methods.back();
+  };
+  with("refinement", "the estimate refined below the grid").refine = true;
+  with("kld", "adaptive particle counts").kld.emplace().max_particles = kGlobalParticles;
+  with("recovery", "recovery from a lost track").recovery.emplace();
   return methods;
 }
 
@@ -93,6 +109,7 @@ std::vector<Method> make_methods() {
   std::vector<Method> methods{
       identity, weighted, odometry_heading, combined, stacked, learned, ours};
   for (Method& one : without_one_idea(ours, weighted)) methods.push_back(std::move(one));
+  for (Method& one : with_one_idea(ours)) methods.push_back(std::move(one));
   return methods;
 }
 
@@ -139,6 +156,10 @@ const std::vector<Method>& all_methods() {
   return kMethods;
 }
 
+bool is_ablated(std::string_view id) {
+  return id.starts_with("without_") || id.starts_with("with_");
+}
+
 const Method* find_method(std::string_view id) {
   const auto& methods = all_methods();
   const auto found = std::ranges::find(methods, id, &Method::id);
@@ -150,7 +171,7 @@ Result<std::vector<Method>> methods_by_id(std::span<const std::string> ids) {
   for (const std::string& id : ids) {
     if (id == "ablation") {
       for (const Method& one : all_methods()) {
-        if (one.id == "ours" || one.id.starts_with("without_")) methods.push_back(one);
+        if (one.id == "ours" || is_ablated(one.id)) methods.push_back(one);
       }
       continue;
     }
@@ -173,7 +194,9 @@ Result<std::vector<Method>> methods_by_id(std::span<const std::string> ids) {
 std::string describe(const Method& method) {
   std::string text = fmt::format("{}: {} weights, {} plan, heading by {}, compass gain {:g}, ",
                                  method.id,
-                                 name(method.weights),
+                                 method.weights == WeightsKind::kLearned
+                                     ? fmt::format("learned ({} bands)", method.bands)
+                                     : std::string(name(method.weights)),
                                  method.stacked_plan ? "stacked" : "printed",
                                  name(method.heading),
                                  method.compass_gain);
@@ -213,6 +236,20 @@ std::string describe(const Method& method) {
         method.annealed_start->move_affine,
         method.annealed_start->keep,
         method.annealed_start->exponent);
+  }
+  if (method.refine) text += ", refined below the grid";
+  if (method.kld) {
+    text += fmt::format(", KLD {:g} and {:g} with {} to {} particles",
+                        method.kld->kld_err,
+                        method.kld->kld_z,
+                        method.kld->min_particles,
+                        method.kld->max_particles);
+  }
+  if (method.recovery) {
+    text += fmt::format(", recovery {:g} and {:g}, at most {:g}",
+                        method.recovery->recovery_alpha_slow,
+                        method.recovery->recovery_alpha_fast,
+                        method.recovery->most_share);
   }
   return text;
 }

@@ -13,8 +13,10 @@
 #include "semview/localization/affine_state.hpp"
 #include "semview/localization/annealed_start.hpp"
 #include "semview/localization/heading_strategy.hpp"
+#include "semview/localization/kld_sampling.hpp"
 #include "semview/localization/pose_estimate.hpp"
 #include "semview/localization/position_noise_model.hpp"
+#include "semview/localization/recovery.hpp"
 #include "semview/observation/combined_heading.hpp"
 #include "semview/observation/similarity_weighting.hpp"
 
@@ -30,6 +32,7 @@ struct Method {
   std::string id;
   std::string title;
   WeightsKind weights = WeightsKind::kHand;
+  int bands = 4;  ///< of elevation, if weights are learned here
   bool stacked_plan = false;
   localization::HeadingStrategy heading = localization::HeadingStrategy::kCompass;
   /// Whether the compass turns the next odometry step: 0 never, 1 always.
@@ -38,6 +41,9 @@ struct Method {
   observation::CombinedHeadingConfig combined = {};
   localization::PositionNoiseConfig motion = {.heading_sigma_rad = rad_from_deg(0.3)};
   std::optional<localization::AffineStateConfig> affine = {};  ///< none: the map is exact
+  std::optional<localization::KldConfig> kld = {};             ///< none: as many as at the start
+  std::optional<localization::RecoveryConfig> recovery = {};   ///< newcomers: anywhere
+  bool refine = false;  ///< the estimate is moved to the top of the image's similarity
   /// none: an unknown start is 2000 particles drawn evenly, weighed by the first image.
   std::optional<localization::AnnealedStartConfig> annealed_start = {};
   double start_sigma_m = 0.1;
@@ -46,14 +52,17 @@ struct Method {
   localization::EstimateKind estimate = localization::EstimateKind::kHighestWeight;
 };
 
-/// The frozen baselines, the steps from them to ours, and ours without one idea each (ids that
-/// begin with "without_").
+/// The frozen baselines, the steps from them to ours, ours without one idea each (ids that begin
+/// with "without_") and ours with one that it leaves out ("with_").
 const std::vector<Method>& all_methods();
+
+/// Whether it is ours with one idea less or more.
+bool is_ablated(std::string_view id);
 
 /// Null if there is none of that id.
 const Method* find_method(std::string_view id);
 
-/// Methods by their ids; "ablation" stands for ours and ours without one idea each.
+/// Methods by their ids; "ablation" stands for ours and for ours with one idea less or more.
 /// @errors kInvalidArgument: a method twice, or an unknown id; the message lists the known ones.
 Result<std::vector<Method>> methods_by_id(std::span<const std::string> ids);
 

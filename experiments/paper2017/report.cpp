@@ -63,7 +63,7 @@ std::string report(const Results& results, const ReportHeader& header) {
             image_table(results, start));
     section(fmt::format("The map's distortion after the last image, {} localization", name(start)),
             distortion_table(results, start));
-    section(fmt::format("One idea off at a time, {} localization", name(start)),
+    section(fmt::format("One idea off or on at a time, {} localization", name(start)),
             ablation_table(results, start));
   }
   section(fmt::format("Images until the error stays below {:g} m", kLocalizedWithin_m),

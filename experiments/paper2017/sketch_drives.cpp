@@ -128,6 +128,7 @@ Result<Weights> load_weights(const SketchSettings& settings, ThreadPool& pool) {
   SEMVIEW_TRY(weights.learned,
               learn_weights(make_training_worlds(settings.world, pool),
                             ClassSubset::kAll,
+                            Method().bands,
                             settings.out / "plans",
                             settings.engine));
   return weights;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "methods.hpp"
 #include "summary.hpp"
 
 namespace semview::paper2017 {
@@ -16,8 +17,6 @@ using evaluation::Interval;
 
 constexpr const char* kBaseline = "weighted";
 constexpr const char* kOurs = "ours";
-
-bool is_ablated(const std::string& method) { return method.starts_with("without_"); }
 
 std::string best_and_min(const Results& results,
                          const std::string& row,

@@ -23,10 +23,6 @@ Status check_renderers(const service::Site& site) {
                            fmt::format("engine {} {}", site.engine().name, site.engine().version)});
 }
 
-const similarity::WeightMatrix& learned_of(const UnitSettings& settings, ClassSubset classes) {
-  return settings.learned.at(classes);
-}
-
 Result<std::vector<TrialRecord>> run_method(const UnitSettings& settings,
                                             const Method& method,
                                             const Row& row,
@@ -35,7 +31,7 @@ Result<std::vector<TrialRecord>> run_method(const UnitSettings& settings,
                                             ViewSource& views) {
   const similarity::WeightMatrix weights =
       method.weights == WeightsKind::kLearned
-          ? learned_of(settings, row.classes)
+          ? settings.learned.at({row.classes, method.bands})
           : row_weights(*settings.hand, method.weights, row.classes);
   ThreadPool alone(1);
   std::vector<TrialRecord> records;

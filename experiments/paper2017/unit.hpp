@@ -5,11 +5,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "learned_weights.hpp"
 #include "methods.hpp"
 #include "records.hpp"
 #include "rows.hpp"
@@ -27,7 +27,7 @@ struct UnitSettings {
   std::string engine = "auto";
   std::filesystem::path plans;                   ///< where the undistorted plans were drawn
   std::optional<similarity::WeightMatrix> hand;  ///< set, as are those of `learned` that are used
-  std::map<ClassSubset, similarity::WeightMatrix> learned;  ///< as far as methods need them
+  LearnedWeights learned;                        ///< as far as methods need them
 };
 
 /// The seed of a run's filter; runs count from 1.
