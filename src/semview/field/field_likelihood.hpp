@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The likelihood of a depth image with labels at many poses: Gomez et al. 2023, section 3.2.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "semview/core/result.hpp"
+#include "semview/core/thread_pool.hpp"
+#include "semview/field/distance_field.hpp"
+#include "semview/field/field_model.hpp"
+#include "semview/field/slice_gather.hpp"
+#include "semview/geometry/pose2.hpp"
+#include "semview/view/voxel_list.hpp"
+
+namespace semview::field {
+
+/// How unlikely an observation is at each pose, in integers.
+struct FieldScores {
+  std::vector<std::int64_t> losses;  ///< -log p of all pixels in units of 1 / kUnitsPerNat
+  std::int64_t pixels = 0;           ///< that count; see `FieldCue::kSem`
+
+  /// The mean over pixels of the logarithm of equation (3), in [-8, 0].
+  double mean_log_likelihood(std::size_t pose) const;
+  /// The logarithm of a particle's weight, equation (2), tempered as configured.
+  double log_weight(const FieldModelConfig& config, std::size_t pose) const;
+};
+
+/// Scores poses by where the observed points of each class come to lie in the map.
+///
+/// Differs from the paper's pixel by pixel: points are counted into voxels first, each taken at its
+/// centre; distances are looked up in cells. The logarithm of equation (3) depends on the class,
+/// the height, which no pose changes, and two coordinates; for each class and height that occur it
+/// is tabulated once a map as a slice, and kept.
+///
+/// @threads `score` from several threads, `set_observation` from one at a time and not beside it.
+class FieldLikelihood {
+ public:
+  /// @errors as `validate`
+  static Result<FieldLikelihood> make(std::shared_ptr<const DistanceField> field,
+                                      FieldModelConfig config);
+
+  const FieldModelConfig& config() const { return config_; }
+
+  /// Takes classes by name; one that the map does not have is of the class `kNoHit`.
+  /// @errors kInvalidArgument: a voxel size that is not in [0.01, 1] m, or no pixel that counts;
+  /// kResourceExhausted: slices of more than `kMaxSliceBytes`.
+  /// @cost What is new takes some ms a class and layer; later observations find it.
+  Status set_observation(const VoxelList& voxels, ThreadPool& pool);
+
+  /// @errors kFailedPrecondition: no observation; kInvalidArgument: a pose is not finite.
+  /// @cost O(poses · voxels), two additions and a gather each
+  Result<FieldScores> score(std::span<const Pose2> map_from_base, ThreadPool& pool) const;
+
+  /// Slices kept at most; those of earlier observations are dropped first.
+  static constexpr std::size_t kMaxSliceBytes = std::size_t{1} << 30;
+
+ private:
+  using SliceKey = std::pair<ClassId, double>;  // map's class, height in frame `map`
+
+  /// Voxels that one slice serves, for at most `kMaxPixelsAtOnce` pixels.
+  struct SliceTask {
+    const LossSlice* slice = nullptr;
+    std::vector<SliceVoxel> voxels;
+  };
+
+  FieldLikelihood(std::shared_ptr<const DistanceField> field, FieldModelConfig config)
+      : field_(std::move(field)), config_(std::move(config)) {}
+
+  std::map<SliceKey, std::vector<SliceVoxel>> by_slice(const VoxelList& voxels) const;
+  Status make_room(const std::map<SliceKey, std::vector<SliceVoxel>>& wanted);
+  void make_slices(const std::vector<SliceKey>& keys, ThreadPool& pool);
+  LossSlice make_slice(const SliceKey& key) const;
+  PoseLanes lanes_of(std::span<const Pose2> map_from_base) const;
+
+  std::shared_ptr<const DistanceField> field_;
+  FieldModelConfig config_;
+  std::map<SliceKey, std::unique_ptr<const LossSlice>> slices_;
+  std::vector<SliceTask> tasks_;
+  std::int64_t pixels_ = 0;
+};
+
+}  // namespace semview::field

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "semview/field/field_model.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace semview::field {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+TEST(FieldModelTest, TheDefaultsAreThePapers) {
+  const FieldModelConfig config;
+  ASSERT_TRUE(validate(config, 3).has_value());
+  EXPECT_EQ(config.sigma_sdf_m, 2.0);
+  EXPECT_EQ(config.sigma_sem_m, 1.5);
+  const CueWeights weights = cue_weights(config, 1);
+  EXPECT_EQ(weights.z_sdf, 0.5);
+  EXPECT_EQ(weights.z_sem, 0.5);
+}
+
+TEST(FieldModelTest, APixelsLossIsEquationThree) {
+  const FieldModelConfig config;
+  for (const double sdf : {0.0, 0.3, 2.0, 7.9}) {
+    for (const double s : {0.0, 0.05, 1.5, 5.9}) {
+      const double p =
+          0.3 * std::exp(-sdf * sdf / (2 * 2.0 * 2.0)) + 0.7 * std::exp(-s * s / (2 * 1.5 * 1.5));
+      const float loss =
+          pixel_loss(config, {0.3, 0.7}, static_cast<float>(sdf), static_cast<float>(s));
+      EXPECT_NEAR(static_cast<double>(loss), -std::log(p), 1e-5);
+    }
+  }
+}
+
+TEST(FieldModelTest, OneCueAloneIgnoresTheOtherDistance) {
+  const FieldModelConfig config;
+  EXPECT_FLOAT_EQ(pixel_loss(config, {1.0, 0.0}, 1.0F, kFar), 0.125F);
+  EXPECT_FLOAT_EQ(pixel_loss(config, {0.0, 1.0}, kFar, 3.0F), 2.0F);
+}
+
+TEST(FieldModelTest, NoDistanceCountsAsMoreThanFourSigma) {
+  const FieldModelConfig config;
+  EXPECT_EQ(pixel_loss(config, {1.0, 0.0}, 8.0F, 0.0F), 8.0F);
+  EXPECT_EQ(pixel_loss(config, {1.0, 0.0}, kFar, 0.0F), 8.0F);
+  EXPECT_EQ(pixel_loss(config, {0.0, 1.0}, 0.0F, kFar), 8.0F);
+  EXPECT_NEAR(static_cast<double>(pixel_loss(config, {0.5, 0.5}, kFar, kFar)), 8.0, 1e-5);
+  EXPECT_EQ(pixel_loss(config, {0.5, 0.5}, 0.0F, 0.0F), 0.0F);
+}
+
+TEST(FieldModelTest, AMovableClassIsTrustedByItsClassRatherThanItsPlace) {
+  FieldModelConfig config;
+  config.movable = {0.0, 0.8};
+  EXPECT_EQ(cue_weights(config, 1).z_sem, 0.0);
+  EXPECT_EQ(cue_weights(config, 2).z_sem, 0.8);
+  EXPECT_DOUBLE_EQ(cue_weights(config, 2).z_sdf, 0.2);
+  EXPECT_EQ(cue_weights(config, kNoHit).z_sem, 0.5);
+  config.cue = FieldCue::kSdf;
+  EXPECT_EQ(cue_weights(config, 2).z_sem, 0.0);
+  config.cue = FieldCue::kSem;
+  EXPECT_EQ(cue_weights(config, 1).z_sem, 1.0);
+}
+
+TEST(FieldModelTest, APixelOfUnknownClassUsesPSdfAlone) {
+  EXPECT_EQ(cue_weights({}, kUnknown).z_sdf, 1.0);
+  EXPECT_EQ(cue_weights({}, kUnknown).z_sem, 0.0);
+}
+
+TEST(FieldModelTest, WhatIsOutOfRangeIsNamed) {
+  const auto field_at_fault = [](const FieldModelConfig& config) {
+    const Status status = validate(config, 2);
+    return status ? std::string("none") : status.error().field;
+  };
+  const double nan = std::nan("");
+  EXPECT_EQ(field_at_fault({}), "none");
+  EXPECT_EQ(field_at_fault({.z_sdf = 0.4}), "z_sdf");
+  EXPECT_EQ(field_at_fault({.z_sdf = 1.5, .z_sem = -0.5}), "z_sdf");
+  EXPECT_EQ(field_at_fault({.z_sdf = nan, .z_sem = nan}), "z_sdf");
+  EXPECT_EQ(field_at_fault({.sigma_sdf_m = 0.0}), "sigma_sdf");
+  EXPECT_EQ(field_at_fault({.sigma_sem_m = nan}), "sigma_sem");
+  EXPECT_EQ(field_at_fault({.movable = {0.5}}), "movable");
+  EXPECT_EQ(field_at_fault({.movable = {0.5, 1.1}}), "movable");
+  EXPECT_EQ(field_at_fault({.effective_pixels = 0.0}), "effective_pixels");
+  EXPECT_EQ(field_at_fault({.effective_pixels = std::nullopt}), "none");
+}
+
+}  // namespace
+}  // namespace semview::field
