@@ -52,9 +52,9 @@ FieldScores scores_of(std::shared_ptr<const DistanceField> field,
 void expect_faithful(std::shared_ptr<const DistanceField> field,
                      const reference::FieldTruth& truth,
                      const FieldModelConfig& config,
-                     const reference::FieldModel& model) {
+                     const reference::FieldModel& model,
+                     const std::vector<Pose2>& poses) {
   const DepthObservation seen = photograph(room(), standing_place());
-  const std::vector<Pose2> poses = poses_to_score();
   const FieldScores scores = scores_of(std::move(field), config, voxels_of(seen), poses);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto literal = reference::literal_likelihood(seen, truth, model, poses[i]);
@@ -66,17 +66,24 @@ void expect_faithful(std::shared_ptr<const DistanceField> field,
 TEST(FieldLikelihoodTest, OnAPlanItIsThePapersPixelByPixel) {
   const map::ColumnMap plan = room();
   const reference::PlanTruth truth(plan, room_classes(), 1.0);
-  expect_faithful(field_of_room(), truth, {}, {});
-  expect_faithful(field_of_room(), truth, {.cue = FieldCue::kSdf}, {.z_sdf = 1.0, .z_sem = 0.0});
-  expect_faithful(field_of_room(), truth, {.cue = FieldCue::kSem}, {.z_sdf = 0.0, .z_sem = 1.0});
+  expect_faithful(field_of_room(), truth, {}, {}, poses_to_score());
+}
+
+TEST(FieldLikelihoodTest, EachCueAloneIsThePapersPixelByPixel) {
+  const map::ColumnMap plan = room();
+  const reference::PlanTruth truth(plan, room_classes(), 1.0);
+  const std::vector<Pose2> pose = {poses_to_score()[2]};
+  expect_faithful(
+      field_of_room(), truth, {.cue = FieldCue::kSdf}, {.z_sdf = 1.0, .z_sem = 0.0}, pose);
+  expect_faithful(
+      field_of_room(), truth, {.cue = FieldCue::kSem}, {.z_sdf = 0.0, .z_sem = 1.0}, pose);
 }
 
 TEST(FieldLikelihoodTest, OnAFusedVolumeItIsThePapersPixelByPixel) {
   Rng rng(8, "volume");
   const SemanticVolume volume = volume_of_room(room(), rng);
   const reference::VolumeTruth truth(volume, 0.2, 1.0);
-  const std::shared_ptr<const DistanceField> field = *distances_of_volume(volume, 0.2);
-  expect_faithful(field, truth, {}, {});
+  expect_faithful(*distances_of_volume(volume, 0.2), truth, {}, {}, poses_to_score());
 }
 
 TEST(FieldLikelihoodTest, ThePlaceOfThePhotographIsTheLikeliest) {

@@ -23,30 +23,34 @@ TEST(FieldModelTest, TheDefaultsAreThePapers) {
 
 TEST(FieldModelTest, APixelsLossIsEquationThree) {
   const FieldModelConfig config;
-  for (const double sdf : {0.0, 0.3, 2.0, 7.9}) {
-    for (const double s : {0.0, 0.05, 1.5, 5.9}) {
-      const double p =
-          0.3 * std::exp(-sdf * sdf / (2 * 2.0 * 2.0)) + 0.7 * std::exp(-s * s / (2 * 1.5 * 1.5));
-      const float loss =
-          pixel_loss(config, {0.3, 0.7}, static_cast<float>(sdf), static_cast<float>(s));
-      EXPECT_NEAR(static_cast<double>(loss), -std::log(p), 1e-5);
+  for (const double z_sdf : {0.3, 0.5, 1e-7, 1.0 - 1e-7}) {
+    const PixelLoss loss(config, {z_sdf, 1.0 - z_sdf});
+    for (double sdf = 0.0; sdf < 8.0; sdf += 0.073) {
+      for (double s = 0.0; s < 6.0; s += 0.047) {
+        const double p = z_sdf * std::exp(-sdf * sdf / (2 * 2.0 * 2.0)) +
+                         (1.0 - z_sdf) * std::exp(-s * s / (2 * 1.5 * 1.5));
+        const int units = loss(static_cast<float>(sdf * sdf), static_cast<float>(s * s));
+        ASSERT_NEAR(units, -std::log(p) * kUnitsPerNat, 2.0) << z_sdf << ' ' << sdf << ' ' << s;
+      }
     }
   }
 }
 
 TEST(FieldModelTest, OneCueAloneIgnoresTheOtherDistance) {
   const FieldModelConfig config;
-  EXPECT_FLOAT_EQ(pixel_loss(config, {1.0, 0.0}, 1.0F, kFar), 0.125F);
-  EXPECT_FLOAT_EQ(pixel_loss(config, {0.0, 1.0}, kFar, 3.0F), 2.0F);
+  EXPECT_EQ(PixelLoss(config, {1.0, 0.0})(1.0F, kFar), kUnitsPerNat / 8);
+  EXPECT_EQ(PixelLoss(config, {0.0, 1.0})(kFar, 9.0F), kUnitsPerNat * 2);
 }
 
 TEST(FieldModelTest, NoDistanceCountsAsMoreThanFourSigma) {
   const FieldModelConfig config;
-  EXPECT_EQ(pixel_loss(config, {1.0, 0.0}, 8.0F, 0.0F), 8.0F);
-  EXPECT_EQ(pixel_loss(config, {1.0, 0.0}, kFar, 0.0F), 8.0F);
-  EXPECT_EQ(pixel_loss(config, {0.0, 1.0}, 0.0F, kFar), 8.0F);
-  EXPECT_NEAR(static_cast<double>(pixel_loss(config, {0.5, 0.5}, kFar, kFar)), 8.0, 1e-5);
-  EXPECT_EQ(pixel_loss(config, {0.5, 0.5}, 0.0F, 0.0F), 0.0F);
+  const PixelLoss sdf(config, {1.0, 0.0});
+  EXPECT_EQ(sdf(64.0F, 0.0F), kMaxLoss_units);
+  EXPECT_EQ(sdf(kFar, 0.0F), kMaxLoss_units);
+  EXPECT_EQ(PixelLoss(config, {0.0, 1.0})(0.0F, kFar), kMaxLoss_units);
+  const PixelLoss both(config, {0.5, 0.5});
+  EXPECT_NEAR(both(kFar, kFar), kMaxLoss_units, 2);
+  EXPECT_EQ(both(0.0F, 0.0F), 0);
 }
 
 TEST(FieldModelTest, AMovableClassIsTrustedByItsClassRatherThanItsPlace) {

@@ -13,10 +13,9 @@ namespace {
 
 LossSlice random_slice(int columns, int rows, Rng& rng) {
   LossSlice slice(columns, rows);
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      slice.set(column, row, static_cast<std::uint16_t>(rng.uniform(0.0, 64000.0)));
-    }
+  const auto cells = static_cast<std::size_t>(columns * rows);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    slice.set(cell, static_cast<std::uint16_t>(rng.uniform(0.0, 64000.0)));
   }
   return slice;
 }
@@ -67,7 +66,7 @@ TEST(SliceGatherTest, EveryTargetAddsWhatThePoseAloneAdds) {
 
 TEST(SliceGatherTest, SumsOfAsManyPixelsAsAllowedDoNotOverflow) {
   LossSlice slice(3, 3);
-  for (int cell = 0; cell < 9; ++cell) slice.set(cell % 3, cell / 3, 65535);
+  for (std::size_t cell = 0; cell < 9; ++cell) slice.set(cell, 65535);
   const PoseLanes poses(1);
   const std::vector<SliceVoxel> voxels = {{900.0F, 0.0F, 65535}, {0.5F, -900.0F, 1}};
   std::vector<std::int64_t> sums(PoseLanes::kPad);
@@ -81,9 +80,10 @@ TEST(SliceGatherTest, SumsOfAsManyPixelsAsAllowedDoNotOverflow) {
 
 TEST(SliceGatherTest, WhatLiesBeyondHasTheLossOfTheNearestCell) {
   LossSlice slice(2, 2);
-  for (const auto& [column, row] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-    slice.set(column, row, static_cast<std::uint16_t>(10 * row + column + 1));
-  }
+  slice.set(0, 1);
+  slice.set(1, 2);
+  slice.set(2, 11);
+  slice.set(3, 12);
   const auto loss_at = [&slice](float x_cells, float y_cells) {
     PoseLanes poses(1);
     poses.cos_yaw[0] = 1.0F;

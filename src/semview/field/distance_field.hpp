@@ -26,7 +26,8 @@ struct LayerGrid {
   }
 };
 
-/// The distances of one map, sampled layer by layer at the centres of cells.
+/// The distances of one map, squared as the likelihood wants them, sampled layer by layer at the
+/// centres of cells.
 ///
 /// Requirements: never negative, and infinite where nothing of the class is within reach (see the
 /// maker) or in the map at all. The grid goes beyond the map on all sides, by the maker's margin:
@@ -41,13 +42,13 @@ class DistanceField {
   /// The ground that robots stand on, in frame `map`.
   virtual double ground_height_m() const = 0;
 
-  /// Distance of each cell's centre at height `z_m` of frame `map` to the nearest thing of a class:
-  /// S of equation (5); for `kNoHit` infinite. `distances_m` has grid().cells() entries, row by
-  /// row.
-  virtual void sample_class(ClassId label, double z_m, std::span<float> distances_m) const = 0;
+  /// Squared distance, m², of each cell's centre at height `z_m` of frame `map` to the nearest
+  /// thing of a class: S of equation (5); for `kNoHit` infinite. `squared_m2` has grid().cells()
+  /// entries, row by row.
+  virtual void sample_class(ClassId label, double z_m, std::span<float> squared_m2) const = 0;
 
-  /// Distance to the nearest surface, without sign: |sdf| of equation (4).
-  virtual void sample_surface(double z_m, std::span<float> distances_m) const = 0;
+  /// Squared distance to the nearest surface: sdf² of equation (4).
+  virtual void sample_surface(double z_m, std::span<float> squared_m2) const = 0;
 };
 
 /// Distances of a drawn map; no mapping run is needed. Walls, ground and ceiling are classes like

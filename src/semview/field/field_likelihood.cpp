@@ -23,11 +23,6 @@ std::vector<ClassId> map_labels_of(const ClassTable& observed, const ClassTable&
   return labels;
 }
 
-std::uint16_t to_units(float loss) {
-  const long units = std::lround(loss * static_cast<float>(kUnitsPerNat));
-  return static_cast<std::uint16_t>(std::clamp<long>(units, 0, kMaxLoss_units));
-}
-
 }  // namespace
 
 double FieldScores::mean_log_likelihood(std::size_t pose) const {
@@ -123,7 +118,7 @@ std::map<FieldLikelihood::SliceKey, std::vector<SliceVoxel>> FieldLikelihood::by
     if (voxel.count == 0) continue;
     const double z_m = field_->ground_height_m() + (voxel.z + 0.5) * voxels.voxel_m;
     constexpr auto kMost = static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max());
-    wanted[{label, z_m}].push_back({static_cast<float>((voxel.x + 0.5) * cells_per_voxel),
+    wanted[{z_m, label}].push_back({static_cast<float>((voxel.x + 0.5) * cells_per_voxel),
                                     static_cast<float>((voxel.y + 0.5) * cells_per_voxel),
                                     static_cast<std::int32_t>(std::min(voxel.count, kMost))});
   }
@@ -155,32 +150,46 @@ Status FieldLikelihood::make_room(const std::map<SliceKey, std::vector<SliceVoxe
 }
 
 void FieldLikelihood::make_slices(const std::vector<SliceKey>& keys, ThreadPool& pool) {
-  std::vector<std::unique_ptr<const LossSlice>> made(keys.size());
-  pool.parallel_for(keys.size(), 1, [&](std::size_t begin, std::size_t end) {
+  // Keys are sorted by height: one task each, since all classes there share the surface's
+  // distances.
+  std::vector<std::span<const SliceKey>> heights;
+  for (std::size_t first = 0; first < keys.size();) {
+    std::size_t past = first;
+    while (past < keys.size() && keys[past].first == keys[first].first) ++past;
+    heights.push_back(std::span(keys).subspan(first, past - first));
+    first = past;
+  }
+  std::vector<std::vector<LossSlice>> made(heights.size());
+  pool.parallel_for(heights.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      made[i] = std::make_unique<const LossSlice>(make_slice(keys[i]));
+      made[i] = make_slices_at(heights[i].front().first, heights[i]);
     }
   });
-  for (std::size_t i = 0; i < keys.size(); ++i) slices_[keys[i]] = std::move(made[i]);
-}
-
-LossSlice FieldLikelihood::make_slice(const SliceKey& key) const {
-  const auto& [label, z_m] = key;
-  const LayerGrid& grid = field_->grid();
-  const CueWeights weights = cue_weights(config_, label);
-  constexpr float kFar = std::numeric_limits<float>::infinity();
-  std::vector<float> sdf_m(grid.cells(), kFar);
-  std::vector<float> class_m(grid.cells(), kFar);
-  if (weights.z_sdf > 0.0) field_->sample_surface(z_m, sdf_m);
-  if (weights.z_sem > 0.0) field_->sample_class(label, z_m, class_m);
-  LossSlice slice(grid.columns, grid.rows);
-  std::size_t cell = 0;
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column, ++cell) {
-      slice.set(column, row, to_units(pixel_loss(config_, weights, sdf_m[cell], class_m[cell])));
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    for (std::size_t k = 0; k < heights[i].size(); ++k) {
+      slices_[heights[i][k]] = std::make_unique<const LossSlice>(std::move(made[i][k]));
     }
   }
-  return slice;
+}
+
+std::vector<LossSlice> FieldLikelihood::make_slices_at(double z_m,
+                                                       std::span<const SliceKey> keys) const {
+  const LayerGrid& grid = field_->grid();
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  std::vector<float> sdf_m2(grid.cells(), kFar);
+  std::vector<float> class_m2(grid.cells(), kFar);
+  if (config_.cue != FieldCue::kSem) field_->sample_surface(z_m, sdf_m2);
+  std::vector<LossSlice> slices;
+  for (const auto& [unused, label] : keys) {
+    const CueWeights weights = cue_weights(config_, label);
+    if (weights.z_sem > 0.0) field_->sample_class(label, z_m, class_m2);
+    const PixelLoss loss(config_, weights);
+    LossSlice& slice = slices.emplace_back(grid.columns, grid.rows);
+    for (std::size_t cell = 0; cell < grid.cells(); ++cell) {
+      slice.set(cell, loss(sdf_m2[cell], class_m2[cell]));
+    }
+  }
+  return slices;
 }
 
 PoseLanes FieldLikelihood::lanes_of(std::span<const Pose2> map_from_base) const {

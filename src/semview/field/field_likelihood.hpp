@@ -61,7 +61,7 @@ class FieldLikelihood {
   static constexpr std::size_t kMaxSliceBytes = std::size_t{1} << 30;
 
  private:
-  using SliceKey = std::pair<ClassId, double>;  // map's class, height in frame `map`
+  using SliceKey = std::pair<double, ClassId>;  // height in frame `map`, the map's class
 
   /// Voxels that one slice serves, for at most `kMaxPixelsAtOnce` pixels.
   struct SliceTask {
@@ -75,7 +75,8 @@ class FieldLikelihood {
   std::map<SliceKey, std::vector<SliceVoxel>> by_slice(const VoxelList& voxels) const;
   Status make_room(const std::map<SliceKey, std::vector<SliceVoxel>>& wanted);
   void make_slices(const std::vector<SliceKey>& keys, ThreadPool& pool);
-  LossSlice make_slice(const SliceKey& key) const;
+  /// Those of one height.
+  std::vector<LossSlice> make_slices_at(double z_m, std::span<const SliceKey> keys) const;
   PoseLanes lanes_of(std::span<const Pose2> map_from_base) const;
 
   std::shared_ptr<const DistanceField> field_;

@@ -11,11 +11,35 @@
 namespace semview::field {
 namespace {
 
-/// d² / 2σ², no more than at kReachSigmas.
-float exponent(float distance_m, double sigma_m) {
-  const float sigmas =
-      std::min(distance_m / static_cast<float>(sigma_m), static_cast<float>(kReachSigmas));
-  return 0.5F * sigmas * sigmas;
+/// Differences from which on log(1 + e^-x) is less than half a unit, rounded up.
+constexpr int kTableEnd_units = 10 * kUnitsPerNat;
+
+/// log(1 + e^-x) in units, x in units.
+const std::vector<std::uint16_t>& closeness_table() {
+  static const std::vector<std::uint16_t> table = [] {
+    std::vector<std::uint16_t> made(kTableEnd_units);
+    for (int x = 0; x < kTableEnd_units; ++x) {
+      const double nats = std::log1p(std::exp(-x / static_cast<double>(kUnitsPerNat)));
+      made[static_cast<std::size_t>(x)] =
+          static_cast<std::uint16_t>(std::lround(nats * kUnitsPerNat));
+    }
+    return made;
+  }();
+  return table;
+}
+
+float units_per_m2(double sigma_m) {
+  return static_cast<float>(kUnitsPerNat / (2.0 * sigma_m * sigma_m));
+}
+
+/// -log z.
+int units_of_weight(double z) {
+  return z > 0.0 ? static_cast<int>(std::lround(-std::log(z) * kUnitsPerNat)) : 0;
+}
+
+int units_of_distance(float squared_m2, float units_per_m2) {
+  return static_cast<int>(
+      std::min(squared_m2 * units_per_m2 + 0.5F, static_cast<float>(kMaxLoss_units)));
 }
 
 bool is_share(double value) { return value >= 0.0 && value <= 1.0; }
@@ -65,18 +89,24 @@ CueWeights cue_weights(const FieldModelConfig& config, ClassId map_label) {
   return {1.0 - alpha, alpha};
 }
 
-float pixel_loss(const FieldModelConfig& config,
-                 const CueWeights& weights,
-                 float sdf_m,
-                 float class_distance_m) {
-  // One cue alone needs neither the exponential nor its logarithm.
-  if (weights.z_sem == 0.0) return exponent(sdf_m, config.sigma_sdf_m);
-  if (weights.z_sdf == 0.0) return exponent(class_distance_m, config.sigma_sem_m);
-  const float p_sdf = std::exp(-exponent(sdf_m, config.sigma_sdf_m));
-  const float p_sem = std::exp(-exponent(class_distance_m, config.sigma_sem_m));
-  const float p =
-      static_cast<float>(weights.z_sdf) * p_sdf + static_cast<float>(weights.z_sem) * p_sem;
-  return std::max(-std::log(p), 0.0F);
+PixelLoss::PixelLoss(const FieldModelConfig& config, const CueWeights& weights)
+    : weights_(weights),
+      sdf_units_per_m2_(units_per_m2(config.sigma_sdf_m)),
+      sem_units_per_m2_(units_per_m2(config.sigma_sem_m)),
+      sdf_units_(units_of_weight(weights.z_sdf)),
+      sem_units_(units_of_weight(weights.z_sem)) {}
+
+std::uint16_t PixelLoss::operator()(float sdf_m2, float class_m2) const {
+  static const std::uint16_t* const closeness = closeness_table().data();
+  const int sdf = units_of_distance(sdf_m2, sdf_units_per_m2_);
+  if (weights_.z_sem == 0.0) return static_cast<std::uint16_t>(sdf);
+  const int sem = units_of_distance(class_m2, sem_units_per_m2_);
+  if (weights_.z_sdf == 0.0) return static_cast<std::uint16_t>(sem);
+  const int a = sdf + sdf_units_;
+  const int b = sem + sem_units_;
+  const int apart = std::abs(a - b);
+  const int loss = std::min(a, b) - (apart < kTableEnd_units ? closeness[apart] : 0);
+  return static_cast<std::uint16_t>(std::clamp(loss, 0, kMaxLoss_units));
 }
 
 }  // namespace semview::field

@@ -54,15 +54,30 @@ CueWeights cue_weights(const FieldModelConfig& config, ClassId map_label);
 /// sees); a voxel of a fused volume that was never observed has the truncation distance as sdf.
 inline constexpr double kReachSigmas = 4.0;
 
-/// -log p of a pixel, equations (3) to (5), in [0, 8]; distances may be infinite.
-float pixel_loss(const FieldModelConfig& config,
-                 const CueWeights& weights,
-                 float sdf_m,
-                 float class_distance_m);
-
-/// Losses are added up as integers, so that no order of summing matters.
+/// Losses, -log p, are integers in units of 1 / kUnitsPerNat: the same on all machines, and no
+/// order of summing matters.
 inline constexpr int kUnitsPerNat = 8000;
 /// kReachSigmas² / 2.
 inline constexpr int kMaxLoss_units = 8 * kUnitsPerNat;
+
+/// The loss of a pixel, equations (3) to (5), for one pair of weights.
+///
+/// Without exponential and logarithm: with a = sdf² / 2σ² - log z_sdf and b the same of sem, it is
+/// min(a, b) - log(1 + e^-|a - b|), of which the last is a table (the first observation on a plan
+/// of 40 × 25 m: 1.8 → 0.7 s).
+class PixelLoss {
+ public:
+  PixelLoss(const FieldModelConfig& config, const CueWeights& weights);
+
+  /// In [0, kMaxLoss_units], within 2 units of the formula; squared distances may be infinite.
+  std::uint16_t operator()(float sdf_m2, float class_m2) const;
+
+ private:
+  CueWeights weights_;
+  float sdf_units_per_m2_;
+  float sem_units_per_m2_;
+  int sdf_units_ = 0;  // -log z_sdf
+  int sem_units_ = 0;
+};
 
 }  // namespace semview::field

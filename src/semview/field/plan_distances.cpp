@@ -72,13 +72,13 @@ class PlanDistances final : public DistanceField {
   const LayerGrid& grid() const override { return grid_; }
   double ground_height_m() const override { return ground_height_m_; }
 
-  void sample_class(ClassId label, double z_m, std::span<float> distances_m) const override {
+  void sample_class(ClassId label, double z_m, std::span<float> squared_m2) const override {
     const auto found = class_fields_.find(label);
     sample(
-        found == class_fields_.end() ? std::vector<PlaneField>{} : found->second, z_m, distances_m);
+        found == class_fields_.end() ? std::vector<PlaneField>{} : found->second, z_m, squared_m2);
   }
-  void sample_surface(double z_m, std::span<float> distances_m) const override {
-    sample(surface_fields_, z_m, distances_m);
+  void sample_surface(double z_m, std::span<float> squared_m2) const override {
+    sample(surface_fields_, z_m, squared_m2);
   }
 
   /// @return false if the fields would be too large.
@@ -139,16 +139,15 @@ class PlanDistances final : public DistanceField {
 
   static void sample(const std::vector<PlaneField>& fields,
                      double z_m,
-                     std::span<float> distances_m) {
-    std::ranges::fill(distances_m, kInfinity);
+                     std::span<float> squared_m2) {
+    std::ranges::fill(squared_m2, kInfinity);
     for (const PlaneField& field : fields) {
       const double dz_m = field.interval.distance_m(z_m);
       const auto dz_m2 = static_cast<float>(dz_m * dz_m);
-      for (std::size_t i = 0; i < distances_m.size(); ++i) {
-        distances_m[i] = std::min(distances_m[i], field.squared_m2[i] + dz_m2);
+      for (std::size_t i = 0; i < squared_m2.size(); ++i) {
+        squared_m2[i] = std::min(squared_m2[i], field.squared_m2[i] + dz_m2);
       }
     }
-    for (float& distance_m : distances_m) distance_m = std::sqrt(distance_m);
   }
 
   ClassTable classes_;

@@ -98,15 +98,11 @@ LossSlice::LossSlice(int columns_of_grid, int rows_of_grid)
       rows(rows_of_grid),
       words((static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 1) / 2) {}
 
-std::uint16_t LossSlice::at(int column, int row) const {
-  const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                           static_cast<std::size_t>(column);
+std::uint16_t LossSlice::at(std::size_t cell) const {
   return static_cast<std::uint16_t>(static_cast<std::uint32_t>(words[cell / 2]) >> (cell % 2 * 16));
 }
 
-void LossSlice::set(int column, int row, std::uint16_t loss) {
-  const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                           static_cast<std::size_t>(column);
+void LossSlice::set(std::size_t cell, std::uint16_t loss) {
   const std::uint32_t shift = cell % 2 * 16;
   const std::uint32_t other = static_cast<std::uint32_t>(words[cell / 2]) & ~(0xFFFFU << shift);
   words[cell / 2] = static_cast<std::int32_t>(other | static_cast<std::uint32_t>(loss) << shift);
@@ -140,7 +136,10 @@ std::int64_t loss_of_pose(const LossSlice& slice,
     const float v = y + (sine * voxel.x_cells + cosine * voxel.y_cells);
     const int column = static_cast<int>(std::clamp(u, 0.0F, static_cast<float>(slice.columns - 1)));
     const int row = static_cast<int>(std::clamp(v, 0.0F, static_cast<float>(slice.rows - 1)));
-    sum += static_cast<std::int64_t>(slice.at(column, row)) * voxel.count;
+    const std::size_t cell =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(slice.columns) +
+        static_cast<std::size_t>(column);
+    sum += static_cast<std::int64_t>(slice.at(cell)) * voxel.count;
   }
   return sum;
 }

@@ -20,8 +20,9 @@ struct LossSlice {
   /// All losses 0.
   LossSlice(int columns_of_grid, int rows_of_grid);
 
-  std::uint16_t at(int column, int row) const;
-  void set(int column, int row, std::uint16_t loss);
+  /// Of cell row · columns + column.
+  std::uint16_t at(std::size_t cell) const;
+  void set(std::size_t cell, std::uint16_t loss);
   std::size_t bytes() const { return words.size() * sizeof(std::int32_t); }
 };
 

@@ -71,33 +71,34 @@ class VolumeDistances final : public DistanceField {
   const LayerGrid& grid() const override { return grid_; }
   double ground_height_m() const override { return ground_height_m_; }
 
-  void sample_class(ClassId label, double z_m, std::span<float> distances_m) const override {
-    std::ranges::fill(distances_m, kInfinity);
+  void sample_class(ClassId label, double z_m, std::span<float> squared_m2) const override {
+    std::ranges::fill(squared_m2, kInfinity);
     const ClassBox& of = boxes_[label];
     const int z = layer(z_m);
     if (of.squared.empty() || z < of.bounds.low.z || z >= of.bounds.high.z) return;
     const Box box = of.bounds.box();
-    const auto voxel_m = static_cast<float>(shape_.voxel_m);
+    const auto voxel_m2 = static_cast<float>(shape_.voxel_m * shape_.voxel_m);
     for (int y = 0; y < box.ny; ++y) {
       const std::uint16_t* from = &of.squared[box.index(0, y, z - of.bounds.low.z)];
-      float* to = &distances_m[place(of.bounds.low.x, of.bounds.low.y + y)];
+      float* to = &squared_m2[place(of.bounds.low.x, of.bounds.low.y + y)];
       for (int x = 0; x < box.nx; ++x) {
-        if (from[x] != kOutOfReach) to[x] = voxel_m * std::sqrt(static_cast<float>(from[x]));
+        if (from[x] != kOutOfReach) to[x] = voxel_m2 * static_cast<float>(from[x]);
       }
     }
   }
 
-  void sample_surface(double z_m, std::span<float> distances_m) const override {
+  void sample_surface(double z_m, std::span<float> squared_m2) const override {
     const std::size_t from = box_.index(0, 0, layer(z_m) - bounds_.low.z);
     std::copy_n(
-        surface_m_.begin() + static_cast<std::ptrdiff_t>(from), grid_.cells(), distances_m.begin());
+        surface_m2_.begin() + static_cast<std::ptrdiff_t>(from), grid_.cells(), squared_m2.begin());
   }
 
   /// @return false if the fields would be too large.
   bool add_fields(const SemanticVolume& volume) {
     box_ = bounds_.box();
     if (box_.size() > kMaxFieldCells) return false;
-    surface_m_.assign(box_.size(), static_cast<float>(shape_.truncation_m));
+    const auto truncation_m = static_cast<float>(shape_.truncation_m);
+    surface_m2_.assign(box_.size(), truncation_m * truncation_m);
     for (const VoxelIndex& index : volume.block_indices()) add_block(index, *volume.block(index));
     std::size_t cells = box_.size();
     for (ClassBox& of : boxes_) {
@@ -128,8 +129,8 @@ class VolumeDistances final : public DistanceField {
     for (std::size_t i = 0; i < VoxelBlock::kVoxels; ++i) {
       const VoxelIndex at = SemanticVolume::voxel_of(index, i);
       if (block.weight[i] > 0.0F) {
-        surface_m_[box_.index(at.x - bounds_.low.x, at.y - bounds_.low.y, at.z - bounds_.low.z)] =
-            std::abs(block.sdf_m[i]);
+        surface_m2_[box_.index(at.x - bounds_.low.x, at.y - bounds_.low.y, at.z - bounds_.low.z)] =
+            block.sdf_m[i] * block.sdf_m[i];
       }
       const ClassId label = block.most_likely_class(i);
       if (label == kNoHit) continue;
@@ -159,7 +160,7 @@ class VolumeDistances final : public DistanceField {
   VoxelBounds bounds_;
   Box box_;
   LayerGrid grid_;
-  std::vector<float> surface_m_;
+  std::vector<float> surface_m2_;
   std::vector<ClassBox> boxes_;  // by class id
 };
 
