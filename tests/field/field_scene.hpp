@@ -54,13 +54,13 @@ inline ClassId label_at(const map::ColumnMap& plan, const Eigen::Vector3d& point
   return plan.ceiling && point_map.z() >= plan.ceiling->height_m ? plan.ceiling->label : kNoHit;
 }
 
-/// Depth and labels at a pose in the room, in steps of 5 mm, some pixels without depth or class.
+/// Depth and labels at a pose in the room, in steps of 1 cm, some pixels without depth or class.
 inline DepthObservation photograph(const map::ColumnMap& plan, const Pose2& map_from_base) {
   DepthObservation seen;
   seen.classes = room_classes();
-  seen.camera = {64, 48, 52.5, 52.5, 32.0, 24.0};
-  seen.depth_m = Image<float>(48, 64, 0.0F);
-  seen.labels = LabelImage(48, 64, kUnknown);
+  seen.camera = {40, 30, 33.0, 33.0, 20.0, 15.0};
+  seen.depth_m = Image<float>(30, 40, 0.0F);
+  seen.labels = LabelImage(30, 40, kUnknown);
   Eigen::Matrix3d level;  // x right, y down, z forward
   level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   seen.base_from_camera.translate(Eigen::Vector3d(0.1, 0.02, 0.9));
@@ -71,10 +71,10 @@ inline DepthObservation photograph(const map::ColumnMap& plan, const Pose2& map_
       Eigen::Vector3d(map_from_base.x_m, map_from_base.y_m, plan.ground_height_m));
   map_from_camera.rotate(Eigen::AngleAxisd(map_from_base.yaw_rad, Eigen::Vector3d::UnitZ()));
   map_from_camera = map_from_camera * seen.base_from_camera;
-  for (int row = 0; row < 48; ++row) {
-    for (int column = 0; column < 64; ++column) {
-      if ((row * 64 + column) % 29 == 0) continue;
-      for (double depth = 0.1; depth < 5.0; depth += 0.005) {
+  for (int row = 0; row < 30; ++row) {
+    for (int column = 0; column < 40; ++column) {
+      if ((row * 40 + column) % 29 == 0) continue;
+      for (double depth = 0.1; depth < 5.0; depth += 0.01) {
         const ClassId label =
             label_at(plan, map_from_camera * (depth * seen.camera.direction(row, column)));
         if (label == kNoHit) continue;
