@@ -67,7 +67,7 @@ MODULES = {
     "similarity": Module(VIEW, {"Highway"}),
     "cache": Module(VIEW, {"LMDB"}),
     "segmentation": Module(VIEW | {"io"}, {"OpenCV"}),
-    "field": Module(VIEW | {"map"}, {"OpenVDB"}),
+    "field": Module(VIEW | {"map"}, {"OpenVDB", "Highway"}),
     "observation": Module(VIEW | {"localization"}, set()),
     "service": Module(SERVICE, set()),
     "protocol": Module(VIEW | {"similarity"}, {"protobuf"}),
