@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <vector>
 
@@ -50,30 +51,37 @@ Status check(const DepthFrame& frame) {
   return {};
 }
 
-/// The blocks within the truncation distance of a row's surfaces, some of them more than once.
-std::vector<BlockIndex> blocks_near_row(const DepthFrame& frame,
-                                        int row,
-                                        const FusionConfig& config,
-                                        const SemanticVolume& volume,
-                                        std::size_t& pixels) {
+/// Adds the blocks within the truncation distance of a row's surfaces, some of them more than once.
+/// @return how many pixels of the row have a depth
+std::size_t add_blocks_near_row(const DepthFrame& frame,
+                                int row,
+                                const FusionConfig& config,
+                                const SemanticVolume& volume,
+                                std::vector<BlockIndex>& near) {
   const double reach_m = volume.shape().truncation_m;
   // Half a block: of what a ray crosses, only corners can be passed over.
   const double step_m = volume.shape().voxel_m * VoxelBlock::kSide / 2.0;
   const int steps = static_cast<int>(std::ceil(2.0 * reach_m / step_m));
-  std::vector<BlockIndex> near;
+  // A pixel's blocks are mostly its neighbour's: with these most of them need not be sorted.
+  constexpr int kNowhere = std::numeric_limits<int>::max();
+  std::vector<BlockIndex> last(static_cast<std::size_t>(steps) + 1, {kNowhere, 0, 0});
+  std::size_t pixels = 0;
   for (int column = 0; column < frame.camera.columns; ++column) {
     const float depth_m = frame.depth_m.at(row, column);
     if (!usable(depth_m, config)) continue;
     ++pixels;
-    const Eigen::Vector3d direction = frame.camera.direction(row, column);
-    for (int s = 0; s <= steps; ++s) {
-      const double z_m = depth_m - reach_m + 2.0 * reach_m * s / steps;
+    const Eigen::Vector3d along =
+        frame.map_from_camera.linear() * frame.camera.direction(row, column);
+    for (std::size_t s = 0; s < last.size(); ++s) {
+      const double z_m = depth_m - reach_m + 2.0 * reach_m * static_cast<double>(s) / steps;
       const BlockIndex block = SemanticVolume::block_of(
-          volume.voxel_at(frame.map_from_camera * Eigen::Vector3d(z_m * direction)));
-      if (near.empty() || near.back() != block) near.push_back(block);
+          volume.voxel_at(frame.map_from_camera.translation() + z_m * along));
+      if (block == last[s]) continue;
+      last[s] = block;
+      near.push_back(block);
     }
   }
-  return near;
+  return pixels;
 }
 
 void sort_out(std::vector<BlockIndex>& blocks) {
@@ -93,9 +101,7 @@ Result<std::size_t> add_blocks(const DepthFrame& frame,
     std::vector<BlockIndex> near;
     std::size_t used = 0;
     for (std::size_t row = begin; row < end; ++row) {
-      const std::vector<BlockIndex> of_row =
-          blocks_near_row(frame, static_cast<int>(row), config, volume, used);
-      near.insert(near.end(), of_row.begin(), of_row.end());
+      used += add_blocks_near_row(frame, static_cast<int>(row), config, volume, near);
     }
     sort_out(near);
     const std::lock_guard lock(mutex);
@@ -144,9 +150,13 @@ class BlockUpdate {
   /// True if a voxel changed.
   bool run(const BlockIndex& index, VoxelBlock& block) const {
     bool changed = false;
+    const Eigen::Vector3d first =
+        camera_from_map_ * volume_.centre(SemanticVolume::voxel_of(index, 0));
+    const Eigen::Matrix3d steps = volume_.shape().voxel_m * camera_from_map_.linear();
     for (std::size_t place = 0; place < VoxelBlock::kVoxels; ++place) {
+      const VoxelIndex within = SemanticVolume::voxel_of({}, place);
       const Eigen::Vector3d point =
-          camera_from_map_ * volume_.centre(SemanticVolume::voxel_of(index, place));
+          first + within.x * steps.col(0) + within.y * steps.col(1) + within.z * steps.col(2);
       if (point.z() <= 0.0) continue;
       const double u = frame_.camera.fx_px * point.x() / point.z() + frame_.camera.cx_px;
       const double v = frame_.camera.fy_px * point.y() / point.z() + frame_.camera.cy_px;
