@@ -190,6 +190,28 @@ TEST(FieldLikelihoodTest, AnEarlierObservationLeavesNoTrace) {
             scores_of(field_of_room(), {}, voxels, poses).losses);
 }
 
+TEST(FieldLikelihoodTest, ObservationsPreparedSideBySideAreScoredAsIfAlone) {
+  ThreadPool pool(1);
+  const std::vector<Pose2> poses = poses_to_score();
+  const VoxelList photographed = voxels_of(photograph(room(), standing_place()));
+  // Of the few slices that are kept the second observation drops all of the first.
+  const auto kept = FieldLikelihood::make(field_of_room(), {}, 4'000'000);
+  const auto first = kept->prepare(photographed, pool);
+  ASSERT_TRUE(first.has_value());
+  for (int z = 0; z < 300; ++z) {
+    const VoxelList other{room_classes(), 0.05, {{0, 0, static_cast<std::int16_t>(z), 4, 1}}, 0.0};
+    ASSERT_TRUE(kept->prepare(other, pool).has_value());
+  }
+  EXPECT_EQ(kept->score(**first, poses, pool)->losses,
+            scores_of(field_of_room(), {}, photographed, poses).losses);
+}
+
+TEST(FieldLikelihoodTest, AnObservationOfMoreSlicesThanMayBeKeptIsRefused) {
+  ThreadPool pool(1);
+  const auto likelihood = FieldLikelihood::make(field_of_room(), {}, 1000);
+  EXPECT_EQ(likelihood->prepare(one_voxel(2), pool).error().code, ErrorCode::kResourceExhausted);
+}
+
 TEST(FieldLikelihoodTest, WithoutObservationOrWithPosesThatAreNotFiniteThereIsNoScore) {
   ThreadPool pool(1);
   auto likelihood = FieldLikelihood::make(field_of_room(), {});

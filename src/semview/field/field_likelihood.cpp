@@ -35,65 +35,79 @@ double FieldScores::log_weight(const FieldModelConfig& config, std::size_t pose)
 }
 
 Result<FieldLikelihood> FieldLikelihood::make(std::shared_ptr<const DistanceField> field,
-                                              FieldModelConfig config) {
+                                              FieldModelConfig config,
+                                              std::size_t max_slice_bytes) {
   SEMVIEW_TRY_STATUS(validate(config, field->classes().size()));
-  return FieldLikelihood(std::move(field), std::move(config));
+  return FieldLikelihood(std::move(field), std::move(config), max_slice_bytes);
 }
 
-Status FieldLikelihood::set_observation(const VoxelList& voxels, ThreadPool& pool) {
-  tasks_.clear();
-  pixels_ = 0;
+Result<std::shared_ptr<const FieldObservation>> FieldLikelihood::prepare(const VoxelList& voxels,
+                                                                         ThreadPool& pool) const {
   if (!(voxels.voxel_m >= 0.01 && voxels.voxel_m <= 1.0)) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("observed voxels of {} m: expected 0.01 to 1", voxels.voxel_m));
   }
-  const auto wanted = by_slice(voxels);
+  const WantedSlices wanted = by_slice(voxels);
   if (wanted.empty()) {
     return fail(ErrorCode::kInvalidArgument, "the observation has no pixel that counts");
   }
+  const std::lock_guard lock(slices_->mutex);
   SEMVIEW_TRY_STATUS(make_room(wanted));
   std::vector<SliceKey> missing;
   for (const auto& [key, unused] : wanted) {
-    if (!slices_.contains(key)) missing.push_back(key);
+    if (!slices_->by_key.contains(key)) missing.push_back(key);
   }
   make_slices(missing, pool);
+  const auto observation = std::make_shared<FieldObservation>();
   for (const auto& [key, of_slice] : wanted) {
-    const LossSlice* const slice = slices_.at(key).get();
+    const auto& slice = slices_->by_key.at(key);
     std::uint32_t room = 0;
     for (const SliceVoxel& voxel : of_slice) {
       for (auto left = static_cast<std::uint32_t>(voxel.count); left > 0;) {
         if (room == 0) {
-          tasks_.push_back({slice, {}});
+          observation->tasks_.push_back({slice, {}});
           room = kMaxPixelsAtOnce;
         }
         const std::uint32_t taken = std::min(left, room);
-        tasks_.back().voxels.push_back(
+        observation->tasks_.back().voxels.push_back(
             {voxel.x_cells, voxel.y_cells, static_cast<std::int32_t>(taken)});
         left -= taken;
         room -= taken;
       }
-      pixels_ += voxel.count;
+      observation->pixels_ += voxel.count;
     }
   }
+  return observation;
+}
+
+Status FieldLikelihood::set_observation(const VoxelList& voxels, ThreadPool& pool) {
+  observation_.reset();
+  SEMVIEW_TRY(observation_, prepare(voxels, pool));
   return {};
 }
 
 Result<FieldScores> FieldLikelihood::score(std::span<const Pose2> map_from_base,
                                            ThreadPool& pool) const {
-  if (tasks_.empty()) return fail(ErrorCode::kFailedPrecondition, "no observation set");
+  if (!observation_) return fail(ErrorCode::kFailedPrecondition, "no observation set");
+  return score(*observation_, map_from_base, pool);
+}
+
+Result<FieldScores> FieldLikelihood::score(const FieldObservation& observation,
+                                           std::span<const Pose2> map_from_base,
+                                           ThreadPool& pool) const {
   if (!std::ranges::all_of(map_from_base, [](const Pose2& pose) { return is_finite(pose); })) {
     return fail(ErrorCode::kInvalidArgument, "a pose is not finite");
   }
   const PoseLanes lanes = lanes_of(map_from_base);
   FieldScores scores;
   scores.losses.resize(lanes.x_cells.size());
-  scores.pixels = pixels_;
+  scores.pixels = observation.pixels_;
   // Each thread takes all slices in turn for its poses: a slice comes into its cache once.
   const std::size_t chunks = lanes.x_cells.size() / PoseLanes::kPad;
   const std::size_t grain = (chunks + pool.threads() - 1) / pool.threads();
   pool.parallel_for(
       chunks, std::max<std::size_t>(grain, 1), [&](std::size_t begin, std::size_t end) {
-        for (const SliceTask& task : tasks_) {
+        for (const auto& task : observation.tasks_) {
           add_losses(*task.slice,
                      task.voxels,
                      lanes,
@@ -106,11 +120,10 @@ Result<FieldScores> FieldLikelihood::score(std::span<const Pose2> map_from_base,
   return scores;
 }
 
-std::map<FieldLikelihood::SliceKey, std::vector<SliceVoxel>> FieldLikelihood::by_slice(
-    const VoxelList& voxels) const {
+FieldLikelihood::WantedSlices FieldLikelihood::by_slice(const VoxelList& voxels) const {
   const std::vector<ClassId> map_labels = map_labels_of(voxels.classes, field_->classes());
   const double cells_per_voxel = voxels.voxel_m / field_->grid().cell_m;
-  std::map<SliceKey, std::vector<SliceVoxel>> wanted;
+  WantedSlices wanted;
   for (const ObservedVoxel& voxel : voxels.voxels) {
     ClassId label = map_labels[voxel.label];
     if (config_.cue == FieldCue::kSem && label == kUnknown) continue;
@@ -125,31 +138,31 @@ std::map<FieldLikelihood::SliceKey, std::vector<SliceVoxel>> FieldLikelihood::by
   return wanted;
 }
 
-Status FieldLikelihood::make_room(const std::map<SliceKey, std::vector<SliceVoxel>>& wanted) {
+Status FieldLikelihood::make_room(const WantedSlices& wanted) const {
   const LayerGrid& grid = field_->grid();
   const std::size_t slice_bytes = LossSlice(grid.columns, grid.rows).bytes();
-  const std::size_t most = kMaxSliceBytes / slice_bytes;
+  const std::size_t most = max_slice_bytes_ / slice_bytes;
   if (wanted.size() > most) {
     return fail(ErrorCode::kResourceExhausted,
                 fmt::format("{} classes and layers of {} bytes each: expected at most {} bytes",
                             wanted.size(),
                             slice_bytes,
-                            kMaxSliceBytes));
+                            max_slice_bytes_));
   }
-  std::size_t after = slices_.size();
-  for (const auto& [key, unused] : wanted) after += slices_.contains(key) ? 0 : 1;
-  for (auto slice = slices_.begin(); after > most && slice != slices_.end();) {
+  std::size_t after = slices_->by_key.size();
+  for (const auto& [key, unused] : wanted) after += slices_->by_key.contains(key) ? 0 : 1;
+  for (auto slice = slices_->by_key.begin(); after > most && slice != slices_->by_key.end();) {
     if (wanted.contains(slice->first)) {
       ++slice;
     } else {
-      slice = slices_.erase(slice);
+      slice = slices_->by_key.erase(slice);
       --after;
     }
   }
   return {};
 }
 
-void FieldLikelihood::make_slices(const std::vector<SliceKey>& keys, ThreadPool& pool) {
+void FieldLikelihood::make_slices(const std::vector<SliceKey>& keys, ThreadPool& pool) const {
   // Keys are sorted by height: one task each, since all classes there share the surface's
   // distances.
   std::vector<std::span<const SliceKey>> heights;
@@ -167,7 +180,7 @@ void FieldLikelihood::make_slices(const std::vector<SliceKey>& keys, ThreadPool&
   });
   for (std::size_t i = 0; i < heights.size(); ++i) {
     for (std::size_t k = 0; k < heights[i].size(); ++k) {
-      slices_[heights[i][k]] = std::make_unique<const LossSlice>(std::move(made[i][k]));
+      slices_->by_key[heights[i][k]] = std::make_shared<const LossSlice>(std::move(made[i][k]));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -31,6 +32,27 @@ struct FieldScores {
   double log_weight(const FieldModelConfig& config, std::size_t pose) const;
 };
 
+/// An observation made ready for one likelihood.
+///
+/// @threads Const members from several threads at once.
+class FieldObservation {
+ public:
+  /// That count; see `FieldCue::kSem`.
+  std::int64_t pixels() const { return pixels_; }
+
+ private:
+  friend class FieldLikelihood;
+
+  /// Voxels that one slice serves, for at most `kMaxPixelsAtOnce` pixels.
+  struct SliceTask {
+    std::shared_ptr<const LossSlice> slice;
+    std::vector<SliceVoxel> voxels;
+  };
+
+  std::vector<SliceTask> tasks_;
+  std::int64_t pixels_ = 0;
+};
+
 /// Scores poses by where the observed points of each class come to lie in the map.
 ///
 /// Differs from the paper's pixel by pixel: points are counted into voxels first, each taken at its
@@ -38,52 +60,66 @@ struct FieldScores {
 /// the height, which no pose changes, and two coordinates; for each class and height that occur it
 /// is tabulated once a map as a slice, and kept.
 ///
-/// @threads `score` from several threads, `set_observation` from one at a time and not beside it.
+/// @threads `prepare` and `score` of what it made from several threads at once; `set_observation`
+/// from one at a time and not beside the `score` without an observation.
 class FieldLikelihood {
  public:
+  /// @param max_slice_bytes  Slices kept at most; those of earlier observations are dropped first.
   /// @errors as `validate`
   static Result<FieldLikelihood> make(std::shared_ptr<const DistanceField> field,
-                                      FieldModelConfig config);
+                                      FieldModelConfig config,
+                                      std::size_t max_slice_bytes = kMaxSliceBytes);
 
   const FieldModelConfig& config() const { return config_; }
 
   /// Takes classes by name; one that the map does not have is of the class `kNoHit`.
   /// @errors kInvalidArgument: a voxel size that is not in [0.01, 1] m, or no pixel that counts;
-  /// kResourceExhausted: slices of more than `kMaxSliceBytes`.
+  /// kResourceExhausted: slices of more than the bytes to keep.
   /// @cost What is new takes some ms a class and layer; later observations find it.
-  Status set_observation(const VoxelList& voxels, ThreadPool& pool);
+  Result<std::shared_ptr<const FieldObservation>> prepare(const VoxelList& voxels,
+                                                          ThreadPool& pool) const;
 
-  /// @errors kFailedPrecondition: no observation; kInvalidArgument: a pose is not finite.
+  /// @errors kInvalidArgument: a pose is not finite.
   /// @cost O(poses · voxels), two additions and a gather each
+  Result<FieldScores> score(const FieldObservation& observation,
+                            std::span<const Pose2> map_from_base,
+                            ThreadPool& pool) const;
+
+  /// Prepares the observation that the other `score` takes. @errors as `prepare`
+  Status set_observation(const VoxelList& voxels, ThreadPool& pool);
+  /// @errors kFailedPrecondition: no observation; kInvalidArgument: a pose is not finite.
   Result<FieldScores> score(std::span<const Pose2> map_from_base, ThreadPool& pool) const;
 
-  /// Slices kept at most; those of earlier observations are dropped first.
   static constexpr std::size_t kMaxSliceBytes = std::size_t{1} << 30;
 
  private:
   using SliceKey = std::pair<double, ClassId>;  // height in frame `map`, the map's class
 
-  /// Voxels that one slice serves, for at most `kMaxPixelsAtOnce` pixels.
-  struct SliceTask {
-    const LossSlice* slice = nullptr;
-    std::vector<SliceVoxel> voxels;
+  using WantedSlices = std::map<SliceKey, std::vector<SliceVoxel>>;
+
+  /// What is shared by all who prepare.
+  struct Slices {
+    std::mutex mutex;
+    std::map<SliceKey, std::shared_ptr<const LossSlice>> by_key;
   };
 
-  FieldLikelihood(std::shared_ptr<const DistanceField> field, FieldModelConfig config)
-      : field_(std::move(field)), config_(std::move(config)) {}
+  FieldLikelihood(std::shared_ptr<const DistanceField> field,
+                  FieldModelConfig config,
+                  std::size_t max_slice_bytes)
+      : field_(std::move(field)), config_(std::move(config)), max_slice_bytes_(max_slice_bytes) {}
 
-  std::map<SliceKey, std::vector<SliceVoxel>> by_slice(const VoxelList& voxels) const;
-  Status make_room(const std::map<SliceKey, std::vector<SliceVoxel>>& wanted);
-  void make_slices(const std::vector<SliceKey>& keys, ThreadPool& pool);
+  WantedSlices by_slice(const VoxelList& voxels) const;
+  Status make_room(const WantedSlices& wanted) const;
+  void make_slices(const std::vector<SliceKey>& keys, ThreadPool& pool) const;
   /// Those of one height.
   std::vector<LossSlice> make_slices_at(double z_m, std::span<const SliceKey> keys) const;
   PoseLanes lanes_of(std::span<const Pose2> map_from_base) const;
 
   std::shared_ptr<const DistanceField> field_;
   FieldModelConfig config_;
-  std::map<SliceKey, std::unique_ptr<const LossSlice>> slices_;
-  std::vector<SliceTask> tasks_;
-  std::int64_t pixels_ = 0;
+  std::size_t max_slice_bytes_ = kMaxSliceBytes;
+  std::unique_ptr<Slices> slices_ = std::make_unique<Slices>();
+  std::shared_ptr<const FieldObservation> observation_;
 };
 
 }  // namespace semview::field
