@@ -151,7 +151,7 @@ Status read_pinholes(const v1::ExactPinholes& wire,
   constexpr std::string_view kPoses = "pinholes.poses";
   SEMVIEW_TRY(const std::vector<Pose2> poses,
               protocol::from_wire(wire.poses(), limits.max_views, kPoses));
-  SEMVIEW_TRY(const PinholeCamera camera, protocol::from_wire(wire, "pinholes"));
+  SEMVIEW_TRY(const PinholeCamera camera, protocol::camera_from_wire(wire, "pinholes"));
   SEMVIEW_TRY(const double eye_height_m, eye_height_of(wire, request->site->profile()));
   for (const Pose2& pose : poses) {
     request->pinholes.push_back({level_camera(pose, request->site->eye_z_m(eye_height_m)), camera});

@@ -72,17 +72,17 @@ TEST(ViewWireTest, AnAbsentAffineIsTheIdentityAndAWildOneRefused) {
 
 TEST(ViewWireTest, APinholeWithoutPixelsOrFocalLengthIsRefused) {
   v1::ExactPinholes wire;
-  EXPECT_EQ(from_wire(wire, "pinholes").error().field, "pinholes.columns");
+  EXPECT_EQ(camera_from_wire(wire, "pinholes").error().field, "pinholes.columns");
   wire.set_columns(64);
-  EXPECT_EQ(from_wire(wire, "pinholes").error().field, "pinholes.rows");
+  EXPECT_EQ(camera_from_wire(wire, "pinholes").error().field, "pinholes.rows");
   wire.set_rows(48);
-  EXPECT_EQ(from_wire(wire, "pinholes").error().field, "pinholes.fx_px");
+  EXPECT_EQ(camera_from_wire(wire, "pinholes").error().field, "pinholes.fx_px");
   wire.set_fx_px(50.0);
-  EXPECT_EQ(from_wire(wire, "pinholes").error().field, "pinholes.fy_px");
+  EXPECT_EQ(camera_from_wire(wire, "pinholes").error().field, "pinholes.fy_px");
   wire.set_fy_px(50.0);
-  EXPECT_TRUE(from_wire(wire, "pinholes"));
+  EXPECT_TRUE(camera_from_wire(wire, "pinholes"));
   wire.set_cx_px(kNan);
-  EXPECT_EQ(from_wire(wire, "pinholes").error().field, "pinholes.cx_px");
+  EXPECT_EQ(camera_from_wire(wire, "pinholes").error().field, "pinholes.cx_px");
 }
 
 TEST(ViewWireTest, RunsOfAnotherShapeAreDataLoss) {

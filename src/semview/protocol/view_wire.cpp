@@ -11,6 +11,7 @@
 
 #include "semview/protocol/envelope.hpp"
 #include "semview/protocol/packed_runs.hpp"
+#include "semview/v1/scores.pb.h"
 #include "semview/view/view_profile.hpp"
 
 namespace semview::protocol {
@@ -122,7 +123,8 @@ Result<MapAffine> from_wire(const v1::Affine& wire, std::string_view field) {
   return affine;
 }
 
-Result<PinholeCamera> from_wire(const v1::ExactPinholes& wire, std::string_view field) {
+template <typename Intrinsics>
+Result<PinholeCamera> camera_from_wire(const Intrinsics& wire, std::string_view field) {
   const auto wrong = [field](std::string_view name, std::string message) {
     return wrong_field(fmt::format("{}.{}", field, name), std::move(message));
   };
@@ -160,6 +162,9 @@ Result<PinholeCamera> from_wire(const v1::ExactPinholes& wire, std::string_view 
                        wire.cx_px(),
                        wire.cy_px()};
 }
+
+template Result<PinholeCamera> camera_from_wire(const v1::ExactPinholes&, std::string_view);
+template Result<PinholeCamera> camera_from_wire(const v1::DepthImage&, std::string_view);
 
 v1::RunPanorama to_wire(const ColumnView& view) {
   v1::RunPanorama wire;

@@ -36,9 +36,11 @@ Result<std::vector<CellIndex>> from_wire(const v1::Cells& wire,
 /// @errors kInvalidArgument: outside the ranges of `MapAffine`.
 Result<MapAffine> from_wire(const v1::Affine& wire, std::string_view field);
 
+/// The intrinsics of an `ExactPinholes` or a `DepthImage`.
 /// @errors kInvalidArgument: an empty image, or numbers that are not finite or focal lengths that
 /// are not positive.
-Result<PinholeCamera> from_wire(const v1::ExactPinholes& wire, std::string_view field);
+template <typename Intrinsics>
+Result<PinholeCamera> camera_from_wire(const Intrinsics& wire, std::string_view field);
 
 v1::RunPanorama to_wire(const ColumnView& view);
 /// The runs of a panorama of `rows` × `columns`, packed or as lists.
