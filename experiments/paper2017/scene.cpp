@@ -159,7 +159,7 @@ SceneHit Scene::cast(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& dir
     for (const std::uint32_t index : square(column, row)) {
       const std::optional<double> range_m = crossing(primitives_[index], origin_m, direction);
       if (range_m && *range_m < hit.range_m) {
-        hit = {primitives_[index].label, primitives_[index].object, *range_m};
+        hit = {primitives_[index].label, primitives_[index].object, *range_m, index};
       }
     }
     const double next = std::min(next_x, next_y);
@@ -194,7 +194,7 @@ SceneView Scene::render(const SceneCamera& camera) const {
                                               std::sin(elevation_rad));
       const SceneHit hit = cast(camera.position_m, direction);
       if (hit.object < 0) continue;
-      view.labels.at(row, column) = static_cast<ClassId>(hit.label);
+      view.labels.at(row, column) = hit.label;
       view.objects.at(row, column) = hit.object;
       view.ranges_m.at(row, column) = static_cast<float>(hit.range_m);
     }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The experiment's building in three dimensions, as oriented primitives, and what a camera sees.
+/// An experiment's building in three dimensions, as oriented primitives, and what a camera sees.
 ///
 /// Nothing here shares code, mesh, grid, heights or classes with what renders maps: an experiment
 /// whose camera and map are one renderer would prove nothing.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "raw_classes.hpp"
 #include "semview/geometry/image.hpp"
+#include "semview/semantics/class_table.hpp"
 #include "semview/view/column_view.hpp"
 
 namespace semview::paper2017 {
@@ -22,7 +23,7 @@ enum class Shape { kBox, kCylinder };
 /// A solid with a vertical axis: a box turned about it, or a round one.
 struct Primitive {
   Shape shape = Shape::kBox;
-  RawClass label = RawClass::kWall;
+  ClassId label = kNoHit;
   std::int32_t object = 0;  ///< parts of one thing share it
   double x_m = 0.0;         ///< centre
   double y_m = 0.0;
@@ -34,9 +35,10 @@ struct Primitive {
 };
 
 struct SceneHit {
-  RawClass label = RawClass::kWall;
+  ClassId label = kNoHit;
   std::int32_t object = -1;  ///< < 0: nothing was met
   double range_m = 0.0;
+  std::size_t solid = 0;  ///< in `Scene::primitives()`
 };
 
 /// The camera: its place, and where its image's middle looks.

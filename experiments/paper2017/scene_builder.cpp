@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "raw_classes.hpp"
 #include "semview/geometry/angle.hpp"
 
 namespace semview::paper2017 {
@@ -40,7 +41,7 @@ class Builder {
            double z_min_m,
            double z_max_m) {
     solids_.push_back({Shape::kBox,
-                       label,
+                       static_cast<ClassId>(label),
                        object_,
                        pose.x_m,
                        pose.y_m,
@@ -54,7 +55,7 @@ class Builder {
   void cylinder(
       RawClass label, const Pose2& pose, double radius_m, double z_min_m, double z_max_m) {
     solids_.push_back({Shape::kCylinder,
-                       label,
+                       static_cast<ClassId>(label),
                        object_,
                        pose.x_m,
                        pose.y_m,
@@ -268,7 +269,7 @@ Scene build_scene(const Layout& layout) { return Scene(Builder(layout).build());
 std::vector<Primitive> person(double x_m, double y_m, double height_m, std::int32_t object) {
   const auto part = [&](double radius_m, double z_min_m, double z_max_m) {
     return Primitive{Shape::kCylinder,
-                     RawClass::kPerson,
+                     static_cast<ClassId>(RawClass::kPerson),
                      object,
                      x_m,
                      y_m,

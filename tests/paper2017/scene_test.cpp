@@ -11,9 +11,11 @@
 namespace semview::paper2017 {
 namespace {
 
+constexpr ClassId kTable = 6;
+
 Primitive box(double x_m, double y_m, double yaw_rad, double half_length_m, double half_width_m) {
   Primitive solid;
-  solid.label = RawClass::kTable;
+  solid.label = kTable;
   solid.object = 1;
   solid.x_m = x_m;
   solid.y_m = y_m;
@@ -37,7 +39,8 @@ TEST(SceneTest, RayMeetsTheNearFaceOfABox) {
   const Scene scene({box(3.0, 0.0, 0.0, 0.5, 0.2)});
   const SceneHit hit = scene.cast(kEye, {1.0, 0.0, 0.0});
   EXPECT_DOUBLE_EQ(hit.range_m, 2.5);
-  EXPECT_EQ(hit.label, RawClass::kTable);
+  EXPECT_EQ(hit.label, kTable);
+  EXPECT_EQ(hit.solid, 0U);
   EXPECT_LT(scene.cast(kEye, {-1.0, 0.0, 0.0}).object, 0);
   EXPECT_LT(scene.cast(kEye, {0.0, 1.0, 0.0}).object, 0);
 }
@@ -110,8 +113,7 @@ TEST(SceneTest, APanoramaShowsABoxWhereItsAnglesAre) {
   for (int column = 0; column < camera.columns; ++column) {
     const double azimuth_rad = kPi - (column + 0.5) * rad_from_deg(1.0);
     const bool within = std::abs(azimuth_rad) < half_width_rad;
-    EXPECT_EQ(view.labels.at(44, column) == static_cast<ClassId>(RawClass::kTable), within)
-        << "column " << column;
+    EXPECT_EQ(view.labels.at(44, column) == kTable, within) << "column " << column;
   }
   for (int row = 0; row < camera.rows; ++row) {
     const double elevation_rad = kPi / 4.0 - (row + 0.5) * rad_from_deg(1.0);
