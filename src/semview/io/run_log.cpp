@@ -193,7 +193,7 @@ Result<RunLogWriter> RunLogWriter::create(const std::filesystem::path& directory
                 fmt::format("{}: holds a run log already, expected a new or empty folder",
                             directory.string()));
   }
-  std::filesystem::create_directories(directory / "labels", error);
+  std::filesystem::create_directories(directory, error);
   if (error) {
     return fail(ErrorCode::kUnavailable,
                 fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
@@ -206,15 +206,21 @@ Result<RunLogWriter> RunLogWriter::create(const std::filesystem::path& directory
 }
 
 Status RunLogWriter::add_frame(double stamp_s, const LabelImage& labels) {
-  if (!frames_.empty() && stamp_s <= frames_.back().stamp_s) {
+  const std::string name = fmt::format("labels/{:06}.png", frames_.size());
+  SEMVIEW_TRY_STATUS(add_files({stamp_s, name, {}, {}}));
+  std::error_code ignored;  // of what cannot be made the picture says so
+  std::filesystem::create_directories(directory_ / "labels", ignored);
+  return write_png(directory_ / name, labels);
+}
+
+Status RunLogWriter::add_files(FrameFiles frame) {
+  if (!frames_.empty() && frame.stamp_s <= frames_.back().stamp_s) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("frame stamp {:.9f} is not above {:.9f} of the frame before",
-                            stamp_s,
+                            frame.stamp_s,
                             frames_.back().stamp_s));
   }
-  const std::string name = fmt::format("labels/{:06}.png", frames_.size());
-  SEMVIEW_TRY_STATUS(write_png(directory_ / name, labels));
-  frames_.push_back({stamp_s, name, {}, {}});
+  frames_.push_back(std::move(frame));
   return {};
 }
 

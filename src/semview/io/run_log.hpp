@@ -62,6 +62,10 @@ class RunLogWriter {
   /// @errors kInvalidArgument: a stamp that does not; kUnavailable: cannot be written.
   Status add_frame(double stamp_s, const LabelImage& labels);
 
+  /// Lists a frame whose files the caller writes.
+  /// @errors kInvalidArgument: a stamp that does not increase.
+  Status add_files(FrameFiles frame);
+
   /// Writes `frames.csv`, `odometry.txt`, unless empty `groundtruth.txt`, and last `log.yaml`: a
   /// folder without it is no run log.
   Status finish(std::span<const StampedPose2> odometry, std::span<const StampedPose2> groundtruth);

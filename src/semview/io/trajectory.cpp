@@ -113,6 +113,20 @@ Status write_tum(const std::filesystem::path& path, std::span<const StampedPose2
   return write_text_file(path, text);
 }
 
+Status write_tum_poses(const std::filesystem::path& path, std::span<const StampedPose3> poses) {
+  std::string text = "# stamp tx ty tz qx qy qz qw\n";
+  for (const StampedPose3& sample : poses) {
+    const Eigen::Quaterniond q(sample.pose.linear());
+    const Eigen::Vector3d t = sample.pose.translation();
+    text += fmt::format("{:.9f}", sample.stamp_s);
+    for (const double number : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+      text += fmt::format(" {:.9f}", number + 0.0);
+    }
+    text += '\n';
+  }
+  return write_text_file(path, text);
+}
+
 Result<Pose2> interpolate(std::span<const StampedPose2> poses, double stamp_s) {
   if (poses.empty() || !(stamp_s >= poses.front().stamp_s && stamp_s <= poses.back().stamp_s)) {
     return fail(ErrorCode::kOutOfRange,

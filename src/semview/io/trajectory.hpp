@@ -47,6 +47,10 @@ struct StampedPose3 {
 /// @errors as `read_tum`, but for the pose's numbers that are not finite.
 Result<std::vector<StampedPose3>> read_tum_poses(const std::filesystem::path& path);
 
+/// Writes poses in space with 9 decimals.
+/// @errors kUnavailable: the file cannot be written.
+Status write_tum_poses(const std::filesystem::path& path, std::span<const StampedPose3> poses);
+
 /// The pose at `stamp_s`: a sample's own, or between the two samples around it, position linearly
 /// and rotation along the shorter way. `poses` must be in order of stamps.
 /// @errors kOutOfRange: no poses, `stamp_s` before the first or after the last, between two that
