@@ -283,6 +283,7 @@ void add_evaluate_verb(CLI::App& app, int& exit_code) {
   add_evaluate_logs_verb(*evaluate_verb, exit_code);
   add_evaluate_lost_verb(*evaluate_verb, exit_code);
   add_evaluate_paper2017_verb(*evaluate_verb, exit_code);
+  add_evaluate_paper2023_verb(*evaluate_verb, exit_code);
   add_evaluate_images(*evaluate_verb, exit_code);
   add_evaluate_rooms_verb(*evaluate_verb, exit_code);
   add_evaluate_sketches_verb(*evaluate_verb, exit_code);

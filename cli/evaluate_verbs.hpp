@@ -12,6 +12,7 @@ void add_evaluate_lost_verb(CLI::App& evaluate, int& exit_code);
 void add_evaluate_images(CLI::App& evaluate_verb, int& exit_code);
 void add_evaluate_logs_verb(CLI::App& evaluate, int& exit_code);
 void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code);
+void add_evaluate_paper2023_verb(CLI::App& evaluate, int& exit_code);
 void add_evaluate_rooms_verb(CLI::App& evaluate, int& exit_code);
 void add_evaluate_sketches_verb(CLI::App& evaluate, int& exit_code);
 

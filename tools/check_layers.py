@@ -82,15 +82,18 @@ MODULES = {
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
     "experiments/paper2017": Module(SERVICE | {"service", "localization", "observation", "evaluation",
                                                "picture", "client/robot"}, set()),
+    "experiments/paper2023": Module(SERVICE | {"field", "localization", "observation", "evaluation",
+                                               "picture", "experiments/paper2017"}, set()),
     "cli": Module(SERVICE | {"service", "field", "segmentation", "picture", "localization", "observation", "simulation",
                              "places", "evaluation", "benchmark", "server", "client/lib", "client/load",
-                             "client/robot", "experiments/paper2017"},
+                             "client/robot", "experiments/paper2017", "experiments/paper2023"},
                   {"CLI11", "nlohmann-json"}),
 }
 PROGRAMS = {"server", "cli"}
 # CMake names of modules that are not `semview::` and the name.
 TARGETS = {"client": "client/lib", "load": "client/load", "robot": "client/robot",
-           "messages": "protocol", "paper2017": "experiments/paper2017"}
+           "messages": "protocol", "paper2017": "experiments/paper2017",
+           "paper2023": "experiments/paper2023"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SYSTEM = re.compile(r"^([a-z0-9_]+|sys/[a-z]+\.h|"
