@@ -262,7 +262,7 @@ void add_evaluate_images(CLI::App& evaluate_verb, int& exit_code) {
   const auto options = std::make_shared<Options>();
   add_eye_height_options(*verb, options->floors);
   verb->remove_option(verb->get_option("map"));  // named by --map, as `evaluate logs` has it
-  verb->add_option("--map", options->floors.site.map, "Map folder, map.yaml or .glb")
+  verb->add_option("--map", options->floors.site.map, "Map folder, map.yaml, .glb or .vdb")
       ->type_name("MAP")
       ->required();
   verb->add_option("--list",

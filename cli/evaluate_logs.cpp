@@ -226,7 +226,7 @@ void add_evaluate_logs_verb(CLI::App& evaluate_verb, int& exit_code) {
       "methods of the 2017 paper, ours, and odometry, over several filter seeds. A known start is "
       "the ground truth's pose at the first frame.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("--map", options->map, "Map folder, map.yaml or .glb")
+  verb->add_option("--map", options->map, "Map folder, map.yaml, .glb or .vdb")
       ->type_name("MAP")
       ->required();
   verb->add_option("LOG", options->logs, "Folders of run logs")->required();

@@ -160,7 +160,8 @@ void add_localize_options(CLI::App& verb, LocalizeOptions& options) {
   verb.add_option("--log", options.log, "Run log: a folder with log.yaml")
       ->type_name("DIR")
       ->required();
-  verb.add_option("--map", options.map, "Map folder, map.yaml or .glb; with --server the map's id")
+  verb.add_option(
+          "--map", options.map, "Map folder, map.yaml, .glb or .vdb; with --server the map's id")
       ->type_name("MAP")
       ->required();
   verb.add_option("--server", options.server, "Let this server score")

@@ -105,7 +105,7 @@ void add_map_check(CLI::App& map, int& exit_code) {
       "List everything that is wrong with maps, each with file, line or pixel, what is wrong and "
       "what would be right. Exit code 1 if there is an error, 0 if there are only warnings.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MAP", options->maps, "Map folders, map.yaml or .glb files")->required();
+  verb->add_option("MAP", options->maps, "Map folders, map.yaml, .glb or .vdb files")->required();
   verb->add_option("--eye-height",
                    options->check.eye_height_m,
                    "Metres above the ground; slabs below it block free space")

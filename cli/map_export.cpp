@@ -48,7 +48,7 @@ void add_map_export(CLI::App& map, int& exit_code) {
       "Write a map as a labelled 3D mesh, binary glTF 2.0 (.glb): one mesh and material a class, "
       "named after it and in its colour. Any 3D viewer shows it, and semview reads it as a map.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MAP", options->map, "Map folder, map.yaml or .glb")->required();
+  verb->add_option("MAP", options->map, "Map folder, map.yaml, .glb or .vdb")->required();
   verb->add_option("OUT", options->output, "The .glb file to write")->required();
   add_nearest_colour(*verb, options->load);
   verb->footer("Example: semview map export maps/duplex_level1 duplex.glb");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "map_box.hpp"
 #include "map_verbs.hpp"
 #include "semview/core/hash.hpp"
+#include "semview/field/vdb_file.hpp"
 #include "semview/geometry/angle.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
@@ -55,6 +57,30 @@ ordered_json numbers_json(const Eigen::Vector3d& point) {
   return {point.x(), point.y(), point.z()};
 }
 
+/// Of the volume of a fused map; a file that cannot be read leaves the map as good as it is.
+ordered_json volume_json(const map::SemanticMap& map) {
+  const auto summary = field::read_vdb_summary(map.volume);
+  if (!summary) return {{"error", summary.error().message}};
+  return {{"file", map.volume.string()},
+          {"voxel_m", summary->shape.voxel_m},
+          {"truncation_m", summary->shape.truncation_m},
+          {"classes", summary->classes.size()},
+          {"frames", summary->frames},
+          {"skipped", summary->skipped},
+          {"source", summary->source}};
+}
+
+std::string volume_text(const map::SemanticMap& map) {
+  const ordered_json volume = volume_json(map);
+  if (volume.contains("error")) return volume["error"].get<std::string>();
+  return fmt::format("{}: voxels of {:g} m, truncated at {:g} m, {} frames, {} skipped",
+                     map.volume.filename().string(),
+                     volume["voxel_m"].get<double>(),
+                     volume["truncation_m"].get<double>(),
+                     volume["frames"].get<std::uint64_t>(),
+                     volume["skipped"].get<std::uint64_t>());
+}
+
 ordered_json info_json(const map::SemanticMap& map,
                        const map::CellGrid& grid,
                        const raycast::EngineChoice& choice) {
@@ -76,6 +102,7 @@ ordered_json info_json(const map::SemanticMap& map,
     info["objects"] = map.objects.features;
     info["object_profiles"] = map.objects.profiles.size();
   } else if (const map::MeshGeometry* mesh = map.mesh()) {
+    if (!map.volume.empty()) info["volume"] = volume_json(map);
     info["vertices"] = mesh->mesh.vertices.size();
     info["triangles"] = mesh->mesh.triangles.size();
   }
@@ -133,6 +160,7 @@ void print_text(const map::SemanticMap& map,
     const map::TriangleMesh& mesh = map.mesh()->mesh;
     line("mesh",
          fmt::format("{} triangles, {} vertices", mesh.triangles.size(), mesh.vertices.size()));
+    if (!map.volume.empty()) line("volume", volume_text(map));
   }
   const Box box = box_of(map);
   const Eigen::Vector3d size_m = box.high - box.low;
@@ -195,7 +223,7 @@ void add_map_info(CLI::App& map, int& exit_code) {
   CLI::App* verb = map.add_subcommand(
       "info", "Say what a map is: id, name, fingerprint, size, classes, free cells, engine.");
   const auto options = std::make_shared<Options>();
-  verb->add_option("MAP", options->map, "Map folder, map.yaml or .glb file")->required();
+  verb->add_option("MAP", options->map, "Map folder, map.yaml, .glb or .vdb file")->required();
   add_engine_option(*verb, options->engine);
   verb->add_option("--eye-height", options->eye_height_m, "Metres above the ground")
       ->check(CLI::Range(0.05, 100.0))

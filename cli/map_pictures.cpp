@@ -8,12 +8,14 @@
 
 #include "map_verbs.hpp"
 #include "plan_backdrop.hpp"
+#include "semview/field/vdb_file.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/map/occupancy.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/picture/class_plan_picture.hpp"
 #include "verb.hpp"
+#include "volume_plan.hpp"
 
 namespace semview::cli {
 namespace {
@@ -25,10 +27,20 @@ struct Options {
   double height_m = 1.2;
 };
 
-/// A drawn map in its own colours, a mesh by its free cells.
+/// Of a fused map: what is higher is not shown, so that ceilings do not cover the rooms.
+constexpr double kTopOfVolume_m = 2.0;
+
+/// A drawn map in its own colours, a fused one by the classes of its volume, a mesh by its free
+/// cells.
 Result<picture::ClassPlanPicture> picture_of(const map::SemanticMap& map) {
   picture::ClassPlanPicture drawing;
   drawing.title = map.name;
+  if (!map.volume.empty()) {
+    SEMVIEW_TRY(const field::StoredVolume stored, field::read_vdb(map.volume));
+    drawing = volume_plan(stored.volume, map.ground_height_m, kTopOfVolume_m);
+    drawing.title = map.name;
+    if (!drawing.classes.empty() && !drawing.plan.image.empty()) return drawing;
+  }
   if (map.columns() == nullptr) {
     SEMVIEW_TRY(drawing.plan, free_cells_plan(map));
     drawing.classes.push_back({kFreeColour, "free"});
@@ -76,7 +88,7 @@ Status occupancy(const Options& options) {
 }
 
 void add_common(CLI::App& verb, Options& options) {
-  verb.add_option("MAP", options.map, "Map folder or map.yaml")->required();
+  verb.add_option("MAP", options.map, "Map folder, map.yaml, .glb or .vdb")->required();
   add_nearest_colour(verb, options.load);
 }
 
@@ -87,7 +99,8 @@ void add_map_pictures(CLI::App& map, int& exit_code) {
       "preview",
       "Draw a plan in its classes' colours as semview reads it, outside in white, objects with "
       "heights of their own in another shade, with a legend, "
-      "metres along the edges and a scale bar. Of a mesh: the free cells.");
+      "metres along the edges and a scale bar. Of a fused map: the classes of its volume seen from "
+      "above, up to 2 m. Of another mesh: the free cells.");
   const auto preview_options = std::make_shared<Options>();
   add_common(*preview_verb, *preview_options);
   preview_verb->add_option("-o,--output", preview_options->output, "PNG to write")->required();

@@ -141,7 +141,7 @@ void add_simulate_verb(CLI::App& app, int& exit_code) {
       "some furniture is missing, the doors that the robot goes through are open.");
   const auto options = std::make_shared<Options>();
   simulation::SimulationConfig& config = options->config;
-  verb->add_option("MAP", options->map, "Map folder, map.yaml or .glb")->required();
+  verb->add_option("MAP", options->map, "Map folder, map.yaml, .glb or .vdb")->required();
   verb->add_option("--world",
                    options->world,
                    "Drive in this map instead, just as it is drawn, in the frame of MAP");

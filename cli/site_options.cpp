@@ -16,7 +16,7 @@
 namespace semview::cli {
 
 void add_site_options(CLI::App& verb, SiteOptions& options, bool map_required) {
-  verb.add_option("map", options.map, "Map: a bundle's folder, its map.yaml, or a .glb")
+  verb.add_option("map", options.map, "Map: a bundle's folder, its map.yaml, a .glb, or a .vdb")
       ->type_name("MAP")
       ->required(map_required);
   add_engine_option(verb, options.engine);

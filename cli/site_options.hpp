@@ -18,7 +18,7 @@ namespace semview::cli {
 
 /// As given on the command line.
 struct SiteOptions {
-  std::string map;  ///< the positional MAP: bundle folder, map.yaml or .glb
+  std::string map;  ///< the positional MAP: bundle folder, map.yaml, .glb or .vdb
   std::string engine;
   double eye_height_m = 1.2;
   int columns = 360;

@@ -134,7 +134,7 @@ Status check(const Options& options) {
 }
 
 void add_map(CLI::App& verb, Options& options) {
-  verb.add_option("MAP", options.map, "Map folder, map.yaml or .glb file")->required();
+  verb.add_option("MAP", options.map, "Map folder, map.yaml, .glb or .vdb file")->required();
   verb.add_flag("--nearest-colour",
                 options.load.nearest_colour,
                 "Take unknown colours to be the nearest class's");

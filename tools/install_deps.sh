@@ -24,6 +24,7 @@ build=(
 test=(
   libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
   python3 python3-numpy python3-zmq python3-protobuf
+  libopenvdb-tools
   clang-format git
 )
 # Open3D brings fifty libraries; without it `semview bench` says so in its rows.

@@ -56,6 +56,11 @@ TEST(VdbFileTest, AVolumeIsReadAsItWasWritten) {
   EXPECT_EQ(read->skipped, 3U);
   EXPECT_EQ(read->source, "a log");
   expect_equal(read->volume, stored.volume);
+  const auto summary = read_vdb_summary(folder.path() / "volume.vdb");
+  ASSERT_TRUE(summary) << summary.error().message;
+  EXPECT_EQ(summary->shape, stored.volume.shape());
+  EXPECT_EQ(summary->classes, stored.volume.classes());
+  EXPECT_EQ(summary->frames, 17U);
 }
 
 TEST(VdbFileTest, AFileCutAnywhereIsAnErrorThatNamesIt) {

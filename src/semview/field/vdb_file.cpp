@@ -216,7 +216,7 @@ std::vector<std::string> class_names_of(const openvdb::MetaMap& meta) {
   return names;
 }
 
-StoredVolume volume_of(const openvdb::MetaMap& meta, const openvdb::GridPtrVec& grids) {
+VolumeSummary summary_of(const openvdb::MetaMap& meta) {
   if (!meta.getMetadata<openvdb::Int32Metadata>(kFormatKey)) {
     throw Refusal{ErrorCode::kInvalidArgument, "an OpenVDB file, but not one of `semview fuse`"};
   }
@@ -224,16 +224,25 @@ StoredVolume volume_of(const openvdb::MetaMap& meta, const openvdb::GridPtrVec& 
     throw Refusal{ErrorCode::kUnimplemented,
                   fmt::format("format {}, this version reads {}", format, kFormat)};
   }
-  const std::vector<std::string> names = class_names_of(meta);
-  const VolumeShape shape{value_of<double>(meta, kVoxelKey),
-                          value_of<double>(meta, kTruncationKey)};
-  if (Status status = validate(shape); !status) {
+  VolumeSummary summary;
+  summary.shape = {value_of<double>(meta, kVoxelKey), value_of<double>(meta, kTruncationKey)};
+  if (Status status = validate(summary.shape); !status) {
     throw Refusal{ErrorCode::kDataLoss, status.error().message};
   }
-  StoredVolume stored{SemanticVolume(shape, ClassTable(names)),
-                      static_cast<std::uint64_t>(value_of<std::int64_t>(meta, kFramesKey)),
-                      static_cast<std::uint64_t>(value_of<std::int64_t>(meta, kSkippedKey)),
-                      value_of<std::string>(meta, kSourceKey)};
+  summary.classes = ClassTable(class_names_of(meta));
+  summary.frames = static_cast<std::uint64_t>(value_of<std::int64_t>(meta, kFramesKey));
+  summary.skipped = static_cast<std::uint64_t>(value_of<std::int64_t>(meta, kSkippedKey));
+  summary.source = value_of<std::string>(meta, kSourceKey);
+  return summary;
+}
+
+StoredVolume volume_of(const openvdb::MetaMap& meta, const openvdb::GridPtrVec& grids) {
+  VolumeSummary summary = summary_of(meta);
+  StoredVolume stored{SemanticVolume(summary.shape, std::move(summary.classes)),
+                      summary.frames,
+                      summary.skipped,
+                      std::move(summary.source)};
+  const auto names = stored.volume.classes().names();
   SemanticVolume& volume = stored.volume;
   read_into<openvdb::FloatGrid>(
       volume, grids, kDistance, [](Block& b, std::size_t p, float value) { b.sdf_m[p] = value; });
@@ -284,7 +293,12 @@ Status write_vdb(const std::filesystem::path& path, const StoredVolume& stored) 
               fmt::format("{}: cannot be written: {}", path.string(), error.message()));
 }
 
-Result<StoredVolume> read_vdb(const std::filesystem::path& path) {
+namespace {
+
+/// What `read` makes of the opened file.
+/// @param delayed  Voxels stay on disk until they are asked for; a cut file is not found out then.
+template <typename T, typename Read>
+Result<T> read_file(const std::filesystem::path& path, bool delayed, const Read& read) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) {
     return fail(ErrorCode::kNotFound, fmt::format("{}: no such file", path.string()));
@@ -295,16 +309,27 @@ Result<StoredVolume> read_vdb(const std::filesystem::path& path) {
   };
   try {
     openvdb::io::File file(path.string());
-    file.open(false);  // all at once: a file that is cut is found out here
-    const openvdb::MetaMap::Ptr meta = file.getMetadata();
-    const openvdb::GridPtrVecPtr grids = file.getGrids();
-    return volume_of(*meta, *grids);
+    file.open(delayed);
+    return read(file);
   } catch (const Refusal& refusal) {
     return refuse(refusal.code, refusal.what);
   } catch (const std::exception& error) {
     return refuse(ErrorCode::kInvalidArgument,
                   fmt::format("cannot be read as an OpenVDB file: {}", error.what()));
   }
+}
+
+}  // namespace
+
+Result<StoredVolume> read_vdb(const std::filesystem::path& path) {
+  return read_file<StoredVolume>(path, false, [](openvdb::io::File& file) {
+    return volume_of(*file.getMetadata(), *file.getGrids());
+  });
+}
+
+Result<VolumeSummary> read_vdb_summary(const std::filesystem::path& path) {
+  return read_file<VolumeSummary>(
+      path, true, [](openvdb::io::File& file) { return summary_of(*file.getMetadata()); });
 }
 
 }  // namespace semview::field

@@ -28,4 +28,16 @@ Status write_vdb(const std::filesystem::path& path, const StoredVolume& stored);
 /// more than `kMaxBlocks`.
 Result<StoredVolume> read_vdb(const std::filesystem::path& path);
 
+/// What a file says of itself; its voxels are not read.
+struct VolumeSummary {
+  VolumeShape shape;
+  ClassTable classes;
+  std::uint64_t frames = 0;
+  std::uint64_t skipped = 0;
+  std::string source;
+};
+
+/// @errors those of `read_vdb` that are seen without reading voxels.
+Result<VolumeSummary> read_vdb_summary(const std::filesystem::path& path);
+
 }  // namespace semview::field
