@@ -109,9 +109,9 @@ Result<std::uint64_t> number_of(const Services& services,
   return number;
 }
 
-Result<SharedObservation> find_observation(Services& services,
-                                           const std::string& id,
-                                           const std::string& map_id) {
+Result<service::StoredObservation> find_observation(Services& services,
+                                                    const std::string& id,
+                                                    const std::string& map_id) {
   constexpr std::string_view kField = "observation_id";
   const Result<std::uint64_t> number = number_of(services, id, kField);
   Result<service::StoredObservation> stored =
@@ -127,7 +127,15 @@ Result<SharedObservation> find_observation(Services& services,
     return protocol::wrong_field(
         kField, fmt::format("was set for map '{}', not '{}'", stored->map_id, map_id));
   }
-  return stored->prepared;
+  return stored;
+}
+
+Result<SharedObservation> labels_of(const service::StoredObservation& stored) {
+  if (stored.prepared != nullptr) return stored.prepared;
+  return fail(Error{ErrorCode::kFailedPrecondition,
+                    "the observation came without labels, and views are compared with labels",
+                    "model",
+                    "name a model of depth, or send `labels` with SetObservation"});
 }
 
 Status check_queue(const Services& services,

@@ -24,6 +24,10 @@
 #include "semview/service/site.hpp"
 #include "semview/service/weight_matrices.hpp"
 
+namespace semview::v1 {
+class ScoreRequest;
+}
+
 namespace semview::server {
 
 /// What a client is told to wait before it tries an overloaded server again.
@@ -107,14 +111,21 @@ Result<std::uint64_t> number_of(const Services& services,
                                 const std::string& id,
                                 std::string_view field);
 
-using SharedObservation = std::shared_ptr<const similarity::PreparedObservation>;
-
 /// An observation of a request.
 /// @errors kNotFound: unknown, dropped, or of another start of the server; kInvalidArgument: set
 /// for another map; both with field `observation_id`.
-Result<SharedObservation> find_observation(Services& services,
-                                           const std::string& id,
-                                           const std::string& map_id);
+Result<service::StoredObservation> find_observation(Services& services,
+                                                    const std::string& id,
+                                                    const std::string& map_id);
+
+using SharedObservation = std::shared_ptr<const similarity::PreparedObservation>;
+
+/// What an observation has for the model of views.
+/// @errors kFailedPrecondition, field `model`: it came without labels.
+Result<SharedObservation> labels_of(const service::StoredObservation& stored);
+
+/// How many poses a Score request may have, for what it asks of each.
+std::size_t most_poses(const service::Limits& limits, const v1::ScoreRequest& wire);
 
 /// Refuses work for which the queue has no room, or that would be begun too late.
 /// @errors kResourceExhausted; with `field` if there is no room.

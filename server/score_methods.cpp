@@ -7,12 +7,16 @@
 
 #include <fmt/format.h>
 
+#include "depth_methods.hpp"
 #include "methods.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/observation/voxel_reduction.hpp"
 #include "semview/protocol/envelope.hpp"
+#include "semview/protocol/model_wire.hpp"
 #include "semview/protocol/score_wire.hpp"
 #include "semview/protocol/view_wire.hpp"
+#include "semview/protocol/voxel_wire.hpp"
 #include "semview/similarity/affine_groups.hpp"
 #include "semview/similarity/prepared_observation.hpp"
 #include "semview/similarity/score_poses.hpp"
@@ -125,14 +129,6 @@ Result<ScoreBatch> collect(Scoring& scoring) {
   return whole;
 }
 
-/// How many poses a request may have, for what it asks of each.
-std::size_t most_poses(const service::Limits& limits, const v1::ScoreRequest& wire) {
-  std::size_t most = limits.max_poses;
-  if (wire.whole_curve()) most = std::min(most, limits.max_curve_poses);
-  if (wire.affines().a_size() > 0) most = std::min(most, limits.max_distorted_poses);
-  return most;
-}
-
 using SharedWeights = std::shared_ptr<const similarity::WeightMatrix>;
 
 /// @errors those of the matrix, with field `weights_csv`.
@@ -151,13 +147,13 @@ Result<SharedWeights> read_weights(Services& services,
   return fail(std::move(error));
 }
 
-}  // namespace
-
-Result<Plan> plan_set_observation(Services& services, const Request& request) {
-  SEMVIEW_TRY(const auto wire, protocol::parse<v1::SetObservationRequest>(request.body, "body"));
-  SEMVIEW_TRY(const SharedSite site, find_site(services, wire.map_id(), wire.fingerprint()));
+/// The panorama of a request that has one.
+/// @errors those of its fields
+Result<SharedObservation> prepare_labels(Services& services,
+                                         const service::Site& site,
+                                         const v1::SetObservationRequest& wire) {
   SEMVIEW_TRY(const Observation observation, protocol::from_wire(wire));
-  const PanoramaCamera& camera = site->profile().camera;
+  const PanoramaCamera& camera = site.profile().camera;
   if (observation.labels.rows() != camera.rows || observation.labels.columns() != camera.columns) {
     return protocol::wrong_field("labels",
                                  fmt::format("{} rows × {} columns; expected {} × {}, the map's",
@@ -167,9 +163,9 @@ Result<Plan> plan_set_observation(Services& services, const Request& request) {
                                              camera.columns));
   }
   SEMVIEW_TRY(const SharedWeights weights,
-              read_weights(services, wire.weights_csv(), site->map().classes));
+              read_weights(services, wire.weights_csv(), site.map().classes));
   Result<similarity::PreparedObservation> prepared =
-      similarity::PreparedObservation::build(observation, *weights, site->map().classes, camera);
+      similarity::PreparedObservation::build(observation, *weights, site.map().classes, camera);
   if (!prepared) {
     Error error = std::move(prepared).error();
     if (error.code == ErrorCode::kFailedPrecondition) {
@@ -180,13 +176,63 @@ Result<Plan> plan_set_observation(Services& services, const Request& request) {
     return fail(std::move(error));
   }
   // Moved: the tables are a megabyte.
-  const auto shared = std::make_shared<const similarity::PreparedObservation>(*std::move(prepared));
-  SEMVIEW_TRY(const std::uint64_t number,
-              services.observations.add(request.client, {shared, site->id()}, shared->byte_size()));
+  return std::make_shared<const similarity::PreparedObservation>(*std::move(prepared));
+}
+
+/// What a depth camera saw, as voxels; null in a request without.
+/// @errors those of its fields
+Result<std::shared_ptr<const VoxelList>> read_voxels(const v1::SetObservationRequest& wire) {
+  if (wire.has_voxels() && wire.has_depth()) {
+    return protocol::wrong_field("depth", "comes with `voxels`; expected one of them");
+  }
+  if (!wire.has_voxels() && !wire.has_depth()) return nullptr;
+  SEMVIEW_TRY(ClassTable classes, protocol::classes_from_wire(wire));
+  if (wire.has_voxels()) {
+    SEMVIEW_TRY(VoxelList list, protocol::from_wire(wire.voxels(), classes, wire.stamp_s()));
+    return std::make_shared<const VoxelList>(std::move(list));
+  }
+  SEMVIEW_TRY(const DepthObservation seen,
+              protocol::from_wire(wire.depth(), classes, wire.stamp_s()));
+  observation::VoxelReductionConfig config;
+  if (wire.depth().voxel_m() != 0.0) config.voxel_m = wire.depth().voxel_m();
+  if (wire.depth().max_depth_m() != 0.0) config.max_depth_m = wire.depth().max_depth_m();
+  Result<VoxelList> list = observation::reduce(seen, config);
+  if (!list) return protocol::wrong_field("depth", list.error().message);
+  return std::make_shared<const VoxelList>(*std::move(list));
+}
+
+}  // namespace
+
+std::size_t most_poses(const service::Limits& limits, const v1::ScoreRequest& wire) {
+  std::size_t most = limits.max_poses;
+  if (wire.whole_curve()) most = std::min(most, limits.max_curve_poses);
+  if (wire.affines().a_size() > 0) most = std::min(most, limits.max_distorted_poses);
+  return most;
+}
+
+Result<Plan> plan_set_observation(Services& services, const Request& request) {
+  SEMVIEW_TRY(const auto wire, protocol::parse<v1::SetObservationRequest>(request.body, "body"));
+  SEMVIEW_TRY(const SharedSite site, find_site(services, wire.map_id(), wire.fingerprint()));
+  service::StoredObservation stored;
+  stored.map_id = site->id();
+  SEMVIEW_TRY(stored.voxels, read_voxels(wire));
   v1::SetObservationReply reply;
+  std::uint64_t bytes = 0;
+  const bool only_depth =
+      stored.voxels != nullptr && wire.labels().empty() && wire.rows() == 0 && wire.columns() == 0;
+  if (!only_depth) {
+    SEMVIEW_TRY(stored.prepared, prepare_labels(services, *site, wire));
+    reply.set_weight_scale(stored.prepared->weight_scale());
+    reply.set_observed_pixels(stored.prepared->observed_pixels());
+    bytes += stored.prepared->byte_size();
+  }
+  if (stored.voxels != nullptr) {
+    reply.set_observed_voxels(static_cast<std::uint32_t>(stored.voxels->voxels.size()));
+    bytes += stored.voxels->voxels.size() * sizeof(ObservedVoxel);
+  }
+  SEMVIEW_TRY(const std::uint64_t number,
+              services.observations.add(request.client, std::move(stored), bytes));
   reply.set_observation_id(wire_id(services, number));
-  reply.set_weight_scale(shared->weight_scale());
-  reply.set_observed_pixels(shared->observed_pixels());
   return answer(reply.SerializeAsString());
 }
 
@@ -194,7 +240,15 @@ Result<Plan> plan_score(Services& services, const Request& request) {
   SEMVIEW_TRY(const auto wire, protocol::parse<v1::ScoreRequest>(request.body, "body"));
   const auto scoring = std::make_shared<Scoring>();
   SEMVIEW_TRY(scoring->site, find_site(services, wire.map_id(), wire.fingerprint()));
-  SEMVIEW_TRY(scoring->prepared, find_observation(services, wire.observation_id(), wire.map_id()));
+  SEMVIEW_TRY(const service::StoredObservation stored,
+              find_observation(services, wire.observation_id(), wire.map_id()));
+  SEMVIEW_TRY(const ScoreModel model, protocol::from_wire(wire.model()));
+  if (scores_depth(model)) {
+    SEMVIEW_TRY(DepthModel depth,
+                depth_model(services, *scoring->site, stored, model, wire.scoring()));
+    return plan_depth_score(services, request, std::move(depth), wire);
+  }
+  SEMVIEW_TRY(scoring->prepared, labels_of(stored));
   SEMVIEW_TRY(scoring->request, protocol::from_wire(wire, most_poses(services.limits, wire)));
   SEMVIEW_TRY_STATUS(divide(*scoring));
 

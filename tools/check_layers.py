@@ -51,7 +51,7 @@ EVERYONES = {"fmt", "Eigen"}
 
 BASE = {"core", "geometry", "semantics"}
 VIEW = BASE | {"view"}
-SERVICE = VIEW | {"io", "map", "raycast", "cache", "similarity"}
+SERVICE = VIEW | {"io", "map", "raycast", "cache", "similarity", "field"}
 # In the order of docs/architecture.md. A name with a slash, and those of PROGRAMS, are folders of the
 # repository; the others are folders of src/semview.
 MODULES = {
@@ -82,9 +82,9 @@ MODULES = {
     "client/robot": Module(VIEW | {"io", "localization", "observation"}, set()),
     "experiments/paper2017": Module(SERVICE | {"service", "localization", "observation", "evaluation",
                                                "picture", "client/robot"}, set()),
-    "experiments/paper2023": Module(SERVICE | {"field", "localization", "observation", "evaluation",
+    "experiments/paper2023": Module(SERVICE | {"localization", "observation", "evaluation",
                                                "picture", "experiments/paper2017"}, set()),
-    "cli": Module(SERVICE | {"service", "field", "segmentation", "picture", "localization", "observation", "simulation",
+    "cli": Module(SERVICE | {"service", "segmentation", "picture", "localization", "observation", "simulation",
                              "places", "evaluation", "benchmark", "server", "client/lib", "client/load",
                              "client/robot", "experiments/paper2017", "experiments/paper2023"},
                   {"CLI11", "nlohmann-json"}),

@@ -12,6 +12,7 @@ Metres, radians, frame `map`; panoramas as in docs/conventions.md#panorama. Ever
 SemviewError whose `code` is gRPC's name of it.
 """
 from .client import (
+    MODELS,
     NO_VIEW,
     UNKNOWN,
     HeatMap,
@@ -26,6 +27,7 @@ from .client import (
 from .connection import SemviewError
 
 __all__ = [
+    "MODELS",
     "NO_VIEW",
     "UNKNOWN",
     "HeatMap",

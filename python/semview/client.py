@@ -13,6 +13,7 @@ from .views import View, view_of
 NO_VIEW = -(2**31)  # the sum of a pose that has no view
 UNKNOWN = 255  # in observations: not seen or undecided, never scored
 HEADINGS = 120
+MODELS = ("views", "sdf", "sem", "sdf_sem")  # views of labels; distances of depth
 AFFINE_STEP = 0.02  # of ln a, ln b and k: how finely distortions of a map are told apart
 
 
@@ -244,7 +245,65 @@ class Map:
         classes      the observer's class names, the first has id 1; None: the map's own
         weights_csv  a weight matrix (docs/formats/weights.md); "" gives 1 for equal names, else 0
         """
-        return Observation(self, labels, self.classes if classes is None else classes, weights_csv)
+        if np.shape(labels) != (self.rows, self.columns):
+            raise ValueError(
+                f"labels of shape {np.shape(labels)}; expected {(self.rows, self.columns)}"
+            )
+        classes = self.classes if classes is None else classes
+        request = scores_pb2.SetObservationRequest(
+            class_names=classes,
+            rows=self.rows,
+            columns=self.columns,
+            labels=_labels(labels, classes).tobytes(),
+            weights_csv=weights_csv,
+        )
+        return Observation(self, request, "views")
+
+    def set_depth(
+        self,
+        depth_m,
+        focal_px,
+        center_px,
+        base_from_camera,
+        labels=None,
+        classes=None,
+        voxel_m=0.05,
+        max_depth_m=5.0,
+    ) -> "Observation":
+        """What a depth camera saw, to score poses against.
+
+        depth_m           (rows, columns), along the optical axis; 0 or not finite = not measured
+        focal_px          (fx, fy)
+        center_px         (cx, cy); pixel (row r, column c) has its centre at (c + 0.5, r + 0.5)
+        base_from_camera  4 x 4: from the camera (x right, y down, z forward) to the robot (x forward,
+                          y left, z up from the ground)
+        labels            (rows, columns) integers, ids of `classes`; None: all unknown
+        """
+        depth_mm = np.nan_to_num(np.asarray(depth_m, dtype=np.float64) * 1000.0, posinf=0.0)
+        if depth_mm.ndim != 2:
+            raise ValueError(f"depth of shape {depth_mm.shape}; expected (rows, columns)")
+        depth_mm = np.where((depth_mm < 0.0) | (depth_mm > 65535.0), 0.0, np.rint(depth_mm))
+        mounting = np.asarray(base_from_camera, dtype=np.float64)
+        if mounting.shape != (4, 4):
+            raise ValueError(f"base_from_camera of shape {mounting.shape}; expected (4, 4)")
+        classes = self.classes if classes is None else classes
+        if labels is not None and np.shape(labels) != depth_mm.shape:
+            raise ValueError(f"labels of shape {np.shape(labels)}; expected {depth_mm.shape}")
+        image = scores_pb2.DepthImage(
+            rows=depth_mm.shape[0],
+            columns=depth_mm.shape[1],
+            depth_mm=depth_mm.astype("<u2").tobytes(),
+            labels=b"" if labels is None else _labels(labels, classes).tobytes(),
+            fx_px=focal_px[0],
+            fy_px=focal_px[1],
+            cx_px=center_px[0],
+            cy_px=center_px[1],
+            base_from_camera=mounting[:3].ravel(),
+            voxel_m=voxel_m,
+            max_depth_m=max_depth_m,
+        )
+        request = scores_pb2.SetObservationRequest(class_names=classes, depth=image)
+        return Observation(self, request, "sdf_sem")
 
     def precompute(self, region=None, reachable_from=None) -> "Job":
         """Starts to cast and store the views of all free cells, or of a part.
@@ -269,22 +328,12 @@ class Map:
 class Observation:
     """An observation that the server holds; sent again by itself when the server has lost it."""
 
-    def __init__(self, of_map, labels, classes, weights_csv):
-        if np.shape(labels) != (of_map.rows, of_map.columns):
-            raise ValueError(
-                f"labels of shape {np.shape(labels)}; expected {(of_map.rows, of_map.columns)}"
-            )
-        array = _labels(labels, classes)
+    def __init__(self, of_map, request, model):
         self._map = of_map
-        self._request = scores_pb2.SetObservationRequest(
-            map_id=of_map.id,
-            fingerprint=of_map._fingerprint,
-            class_names=classes,
-            rows=array.shape[0],
-            columns=array.shape[1],
-            labels=array.tobytes(),
-            weights_csv=weights_csv,
-        )
+        self._model = model  # unless a call names another
+        self._request = request
+        self._request.map_id = of_map.id
+        self._request.fingerprint = of_map._fingerprint
         self._send()
 
     def _send(self):
@@ -293,6 +342,13 @@ class Observation:
         )
         self._id = reply.observation_id
         self.observed_pixels = reply.observed_pixels
+        self.observed_voxels = reply.observed_voxels
+
+    def _of_model(self, model):
+        model = self._model if model is None else model
+        if model not in MODELS:
+            raise ValueError(f"model {model!r}; expected one of {', '.join(MODELS)}")
+        return scores_pb2.Model.Value(f"MODEL_{model.upper()}")
 
     def _call(self, method, request, reply_type, timeout_s=None):
         request.map_id = self._map.id
@@ -307,14 +363,18 @@ class Observation:
         request.observation_id = self._id
         return self._map._connection.call(method, request, reply_type, timeout_s)
 
-    def score(self, poses, compass=False, curve=False, affines=None) -> Scores:
+    def score(self, poses, compass=False, curve=False, affines=None, model=None) -> Scores:
         """The similarity at each pose (x, y, yaw); `compass` tries all 120 headings.
 
+        model    one of MODELS; None: "views" of labels, "sdf_sem" of depth, whose similarity is the
+                 mean over pixels of the logarithm of the likelihood
         affines  (n, 3) of a, b, k, one a pose: score as if the plan were drawn distorted by
                  [[a, 0], [k, b]], taken to the nearest step of 0.02
         """
         mode = scores_pb2.HEADING_MODE_COMPASS if compass else scores_pb2.HEADING_MODE_AS_GIVEN
-        request = scores_pb2.ScoreRequest(poses=_poses(poses), mode=mode, whole_curve=curve)
+        request = scores_pb2.ScoreRequest(
+            poses=_poses(poses), mode=mode, whole_curve=curve, model=self._of_model(model)
+        )
         if affines is not None:
             request.affines.CopyFrom(_affine_steps(affines, len(request.poses.x_m)))
         reply = self._call("Score", request, scores_pb2.ScoreReply)
@@ -332,7 +392,14 @@ class Observation:
         )
 
     def heat_map(
-        self, region=None, headings=HEADINGS, timeout_s=600.0, posterior=False, power=None, kappa=None
+        self,
+        region=None,
+        headings=HEADINGS,
+        timeout_s=600.0,
+        posterior=False,
+        power=None,
+        kappa=None,
+        model=None,
     ) -> HeatMap:
         """The best similarity of each free cell of the map, or of a region.
 
@@ -340,8 +407,9 @@ class Observation:
                       weights that a filter gives
         power, kappa  one of them: weight = max(similarity, 0) ** power, or exp(kappa * similarity);
                       none: the filter's default
+        model         as of `score`; of depth there is only kappa
         """
-        request = scores_pb2.HeatmapRequest(headings=headings)
+        request = scores_pb2.HeatmapRequest(headings=headings, model=self._of_model(model))
         if (power is not None or kappa is not None) and not posterior:
             raise ValueError("power and kappa are weights of a posterior; expected posterior=True")
         if power is not None and kappa is not None:

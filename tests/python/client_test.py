@@ -155,6 +155,33 @@ class ClientTest(unittest.TestCase):
         self.assertEqual(scores.sums[2], semview.NO_VIEW)
         self.assertTrue(np.isnan(scores.similarity[2]))
 
+    def test_depth_scores_best_where_it_was_seen(self):
+        camera = (80, 60, 70.0, 70.0, 40.0, 30.0)
+        x, y, yaw = pose = (3.0, -5.0, 0.0)
+        (view,) = self.map.pinhole_views([pose], *camera, eye_height_m=1.2, depths=True)
+        mounting = np.eye(4)
+        mounting[:3, :3] = [[0, 0, 1], [-1, 0, 0], [0, -1, 0]]
+        mounting[2, 3] = 1.2
+        observation = self.map.set_depth(
+            view.ranges_m, camera[2:4], camera[4:], mounting, labels=view.labels
+        )
+        self.assertGreater(observation.observed_voxels, 50)
+        poses = [pose, (x + 0.5, y, yaw), (x, y, yaw + 1.0)]
+        for model in (None, "sdf", "sem", "sdf_sem"):
+            similarity = observation.score(poses, model=model).similarity
+            self.assertGreater(similarity[0], similarity[1])
+            self.assertGreater(similarity[0], similarity[2])
+            self.assertLessEqual(similarity[0], 0.0)
+        region = (x - 0.3, y - 0.3, x + 0.3, y + 0.3)
+        heat = observation.heat_map(region, headings=20, model="sem")
+        self.assertGreater(np.nanmax(heat.similarity), -0.1)
+        with self.assertRaises(semview.SemviewError) as raised:
+            observation.score(poses, model="views")
+        self.assertEqual(raised.exception.code, "FAILED_PRECONDITION")
+        self.assertEqual(raised.exception.field, "model")
+        with self.assertRaises(ValueError):
+            observation.score(poses, model="sonar")
+
     def test_labels_that_are_no_ids_of_the_classes_are_refused(self):
         (view,) = self.map.views([self.pose])
         beyond = len(self.map.classes) + 1

@@ -23,7 +23,7 @@ void to_wire(const Observation& observation, v1::SetObservationRequest* wire) {
   wire->set_stamp_s(observation.stamp_s);
 }
 
-Result<Observation> from_wire(const v1::SetObservationRequest& wire) {
+Result<ClassTable> classes_from_wire(const v1::SetObservationRequest& wire) {
   if (wire.class_names_size() == 0 || wire.class_names_size() > kMaxClasses) {
     return wrong_field(
         "class_names",
@@ -39,11 +39,14 @@ Result<Observation> from_wire(const v1::SetObservationRequest& wire) {
     return wrong_field("stamp_s",
                        fmt::format("{}; expected a finite number of seconds", wire.stamp_s()));
   }
+  return ClassTable({wire.class_names().begin(), wire.class_names().end()});
+}
+
+Result<Observation> from_wire(const v1::SetObservationRequest& wire) {
+  SEMVIEW_TRY(ClassTable classes, classes_from_wire(wire));
   SEMVIEW_TRY(LabelImage labels,
               labels_from_bytes(wire.labels(), wire.rows(), wire.columns(), "labels"));
-  return Observation{ClassTable({wire.class_names().begin(), wire.class_names().end()}),
-                     std::move(labels),
-                     wire.stamp_s()};
+  return Observation{std::move(classes), std::move(labels), wire.stamp_s()};
 }
 
 void to_wire(const ScoreRequest& request, v1::ScoreRequest* wire) {

@@ -14,8 +14,11 @@ namespace semview::protocol {
 
 /// The observation's part of the message: classes, size, labels and stamp.
 void to_wire(const Observation& observation, v1::SetObservationRequest* wire);
-/// @errors kInvalidArgument: class names empty, repeated or too many, or labels of another size;
+/// The classes of a request, the rest of what all its images have in common checked.
+/// @errors kInvalidArgument: class names empty, repeated or too many, a stamp that is not finite;
 /// the field is named.
+Result<ClassTable> classes_from_wire(const v1::SetObservationRequest& wire);
+/// The panorama. @errors as above; kInvalidArgument: labels of another size
 Result<Observation> from_wire(const v1::SetObservationRequest& wire);
 
 /// The request's part of the message: poses, mode, curve, affines (which must be in range).

@@ -13,16 +13,20 @@
 #include "semview/core/result.hpp"
 #include "semview/service/limits.hpp"
 
-namespace semview::similarity {
+namespace semview {
+struct VoxelList;
+namespace similarity {
 class PreparedObservation;
 }
+}  // namespace semview
 
 namespace semview::service {
 
 /// One stored observation; `map_id` is the map whose classes it was prepared for.
 struct StoredObservation {
-  std::shared_ptr<const similarity::PreparedObservation> prepared;
+  std::shared_ptr<const similarity::PreparedObservation> prepared;  ///< null: no labels were sent
   std::string map_id;
+  std::shared_ptr<const VoxelList> voxels = {};  ///< null: no depth was sent
 };
 
 /// Observation ids are never used twice. A client that sends more than its share loses its own

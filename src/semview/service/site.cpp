@@ -21,6 +21,7 @@
 #include "semview/raycast/pinhole_renderer.hpp"
 #include "semview/raycast/scene.hpp"
 #include "semview/service/cached_view_source.hpp"
+#include "semview/service/field_likelihoods.hpp"
 #include "semview/service/limits.hpp"
 #include "semview/service/nearest_eye_view_source.hpp"
 
@@ -126,6 +127,7 @@ struct Site::Parts {
   std::unique_ptr<raycast::EngineViewSource> engine_views;
   std::unique_ptr<CachedViewSource> cached_views;
   std::unique_ptr<NearestEyeViewSource> views;
+  std::unique_ptr<FieldLikelihoods> likelihoods;
 };
 
 Result<std::shared_ptr<Site>> Site::open(const std::filesystem::path& path,
@@ -180,6 +182,7 @@ Result<std::shared_ptr<Site>> Site::of(map::SemanticMap map,
   parts->cached_views =
       std::make_unique<CachedViewSource>(*parts->engine_views, parts->keyspace, parts->tiers.cache);
   parts->views = std::make_unique<NearestEyeViewSource>(*parts->cached_views, parts->cells);
+  parts->likelihoods = std::make_unique<FieldLikelihoods>(parts->map);
   if (parts->tiers.store != nullptr) {
     parts->tiers.store->describe(
         parts->keyspace, parts->map.id, view_cells(parts->cells, parts->cells.free_cells()));
@@ -205,6 +208,7 @@ const cache::Keyspace& Site::keyspace() const { return parts_->keyspace; }
 const raycast::Scene& Site::scene() const { return *parts_->scene; }
 ViewSource& Site::views() const { return *parts_->views; }
 ViewSource& Site::engine_views() const { return *parts_->engine_views; }
+FieldLikelihoods& Site::likelihoods() const { return *parts_->likelihoods; }
 ThreadPool& Site::pool() const { return *parts_->tiers.pool; }
 const SharedTiers& Site::tiers() const { return parts_->tiers; }
 

@@ -34,6 +34,8 @@ class ViewCache;
 
 namespace semview::service {
 
+class FieldLikelihoods;
+
 /// How a map's views are made and kept.
 struct SiteConfig {
   ViewProfile profile = {};
@@ -118,6 +120,9 @@ class Site {
   /// @errors kInvalidArgument: pose or camera; kResourceExhausted: above the limit of pixels.
   Result<raycast::Panorama> exact_panorama(const raycast::PanoramaRequest& request) const;
   Result<raycast::PinholeView> exact_pinhole(const raycast::PinholeRequest& request) const;
+
+  /// What scores depth images.
+  FieldLikelihoods& likelihoods() const;
 
   ThreadPool& pool() const;
   const SharedTiers& tiers() const;
