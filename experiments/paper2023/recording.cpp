@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,6 +30,10 @@ Eigen::Isometry3d noisy(const Eigen::Isometry3d& pose, const PoseNoiseConfig& co
 }
 
 }  // namespace
+
+bool measures_anything(const RecordedFrame& frame) {
+  return std::ranges::any_of(frame.depth_m.pixels(), [](float z_m) { return z_m > 0.0F; });
+}
 
 std::string_view name(Session session) {
   return session == Session::kStatic ? "static" : "changed";

@@ -55,6 +55,9 @@ struct RecordedFrame {
   LabelImage labels_rcnn;
 };
 
+/// Whether any pixel has a depth.
+bool measures_anything(const RecordedFrame& frame);
+
 struct Recording {
   PinholeCamera camera;
   Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The experiment as a whole, on one flat.
+#include "experiments/paper2023/experiment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "experiments/paper2023/report.hpp"
+#include "experiments/paper2023/summary.hpp"
+
+namespace semview::paper2023 {
+namespace {
+
+void say_nothing(std::size_t /*done*/, std::size_t /*all*/) {}
+
+ExperimentConfig quick() {
+  ExperimentConfig config;
+  config.worlds = {201};
+  config.static_runs = 2;
+  config.changed_paths = 1;
+  config.changed_runs = 1;
+  return config;
+}
+
+TEST(Paper2023ExperimentTest, BothCuesTogetherAreBetterThanTheMetricOneAlone) {
+  ExperimentConfig config = quick();
+  config.methods = {"sdf", "sdf_sem_gt"};
+  const auto experiment = run_experiment(config, say_nothing);
+  ASSERT_TRUE(experiment) << experiment.error().message;
+  const Summary metric = summary_of(*experiment, Session::kStatic, "sdf", true);
+  const Summary both = summary_of(*experiment, Session::kStatic, "sdf_sem_gt", true);
+  EXPECT_LT(both.position_m, metric.position_m);
+  EXPECT_LT(both.position_m, 0.3);
+  EXPECT_EQ(both.failed, 0);
+}
+
+TEST(Paper2023ExperimentTest, ASeedGivesTheSameRunsForAnyNumberOfThreads) {
+  ExperimentConfig config = quick();
+  config.methods = {"sem_rcnn"};
+  config.filter.particles = 300;
+  config.world.drive.length_m = 3.0;
+  config.threads = 1;
+  const auto one = run_experiment(config, say_nothing);
+  config.threads = 3;
+  const auto three = run_experiment(config, say_nothing);
+  ASSERT_TRUE(one) << one.error().message;
+  ASSERT_TRUE(three);
+  EXPECT_EQ(to_csv(*one), to_csv(*three));
+  config.seed = 2;
+  EXPECT_NE(to_csv(*one), to_csv(*run_experiment(config, say_nothing)));
+}
+
+}  // namespace
+}  // namespace semview::paper2023
