@@ -79,7 +79,8 @@ TEST_F(FusedMapTest, ViewsShowTheFloorBelowAndTheWallAhead) {
 }
 
 TEST_F(FusedMapTest, ARobotIsSimulatedAndLocalizedInIt) {
-  succeed("simulate " + volume() + " --out " + file("log") + " --steps 3 --frame-distance 0.1 --eye-height 0.6");
+  succeed("simulate " + volume() + " --out " + file("log") +
+          " --steps 3 --frame-distance 0.1 --eye-height 0.6");
   const auto truth = io::read_tum(file("log/groundtruth.txt"));
   ASSERT_TRUE(truth);
   succeed("localize --log " + file("log") + " --map " + volume() +
