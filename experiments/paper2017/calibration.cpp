@@ -91,11 +91,9 @@ std::string differences_text(const std::vector<World>& worlds) {
 std::string beside_text(const std::vector<double>& means, double printed) {
   if (means.empty()) return fmt::format(" | | {:.3f} | |", printed);
   const double mean = evaluation::mean(means);
-  const evaluation::Interval interval = interval_over_worlds(means);
-  return fmt::format(" {:.3f} ({:.3f}–{:.3f}) | {:.3f} | {:.3f} | {:.2f} |",
+  return fmt::format(" {:.3f} ({}) | {:.3f} | {:.3f} | {:.2f} |",
                      mean,
-                     interval.low,
-                     interval.high,
+                     to_text(interval_over_worlds(means)),
                      evaluation::median(means),
                      printed,
                      mean / printed);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "semview/core/random.hpp"
 
 namespace semview::paper2017 {
@@ -74,11 +76,16 @@ std::vector<std::string> Results::methods(Start start) const {
   return ordered;
 }
 
-evaluation::Interval interval_over_worlds(const std::vector<double>& world_means) {
+std::optional<evaluation::Interval> interval_over_worlds(const std::vector<double>& world_means) {
+  if (world_means.size() < 2) return std::nullopt;
   constexpr double kLevel = 0.95;
   constexpr std::size_t kDraws = 10'000;
   Rng rng(1, "bootstrap over worlds");
   return evaluation::bootstrap_mean(world_means, kLevel, kDraws, rng);
+}
+
+std::string to_text(const std::optional<evaluation::Interval>& interval) {
+  return interval ? fmt::format("{:.3f}–{:.3f}", interval->low, interval->high) : "-";
 }
 
 std::optional<int> localized_from(const TrialRecord& drive, double limit_m) {

@@ -48,8 +48,12 @@ class Results {
   const Experiment& experiment_;
 };
 
-/// 95 % of where the mean over worlds might lie, by 10 000 draws of a fixed seed.
-evaluation::Interval interval_over_worlds(const std::vector<double>& world_means);
+/// 95 % of where the mean over worlds might lie, by 10 000 draws of a fixed seed. None below two
+/// worlds: all draws would be the same, an interval of no width.
+std::optional<evaluation::Interval> interval_over_worlds(const std::vector<double>& world_means);
+
+/// "0.041–0.086", or "-" where there is none.
+std::string to_text(const std::optional<evaluation::Interval>& interval);
 
 /// The image, from 1, from which on all errors are below `limit_m`; none if the last is not.
 std::optional<int> localized_from(const TrialRecord& drive, double limit_m);

@@ -18,16 +18,24 @@ using evaluation::Interval;
 constexpr const char* kBaseline = "weighted";
 constexpr const char* kOurs = "ours";
 
-std::string best_and_min(const Results& results,
-                         const std::string& row,
-                         const std::string& method,
-                         Start start) {
-  const auto best = results.world_means(row, method, start, &StopRecord::estimate_m);
-  if (best.empty()) return "";
+/// A column's name and quantity, for example "ours: own estimate (min)".
+std::string column_name(const std::string& id) {
+  const Method* method = find_method(id);
+  if (method == nullptr) return id + ": own estimate";
+  const bool best = method->estimate == localization::EstimateKind::kHighestWeight;
+  return fmt::format("{}: {} (min)", id, best ? "best" : "own estimate");
+}
+
+std::string estimate_and_min(const Results& results,
+                             const std::string& row,
+                             const std::string& method,
+                             Start start) {
+  const auto estimate = results.world_means(row, method, start, &StopRecord::estimate_m);
+  if (estimate.empty()) return "";
   const auto least = results.world_means(row, method, start, &StopRecord::min_m);
   const double min_m = evaluation::mean(least);
-  if (std::isnan(min_m)) return fmt::format("{:.3f}", evaluation::mean(best));
-  return fmt::format("{:.3f} ({:.3f})", evaluation::mean(best), min_m);
+  if (std::isnan(min_m)) return fmt::format("{:.3f}", evaluation::mean(estimate));
+  return fmt::format("{:.3f} ({:.3f})", evaluation::mean(estimate), min_m);
 }
 
 /// Odometry is the same for all methods: that of the first that has drives.
@@ -47,7 +55,7 @@ std::vector<std::string> compared_methods(const Results& results, Start start) {
 
 struct Against {
   double difference_m = 0.0;
-  Interval interval;
+  std::optional<Interval> interval;
   double ratio = 0.0;
 };
 
@@ -60,6 +68,13 @@ Against against_baseline(const std::vector<double>& method, const std::vector<do
   return {evaluation::mean(differences),
           interval_over_worlds(differences),
           evaluation::mean(baseline) / evaluation::mean(method)};
+}
+
+std::string difference_text(const Against& against) {
+  const std::string difference = fmt::format("{:+.3f}", against.difference_m);
+  if (!against.interval) return difference + " [-]";
+  return fmt::format(
+      "{} [{:+.3f}, {:+.3f}]", difference, against.interval->low, against.interval->high);
 }
 
 /// Empty where nothing was asked of a row.
@@ -79,24 +94,19 @@ std::string spread_line(const Results& results,
   const auto means = results.world_means(row.id, method, start, &StopRecord::estimate_m);
   if (means.empty()) return "";
   const auto all = results.values(row.id, method, start, &StopRecord::estimate_m);
-  const Interval interval = interval_over_worlds(means);
-  std::string line =
-      fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f}–{:.3f} | {:.1f} % | {:.1f} % |",
-                  row.id,
-                  method,
-                  evaluation::mean(means),
-                  evaluation::median(means),
-                  interval.low,
-                  interval.high,
-                  100.0 * evaluation::share_above(all, 0.3),
-                  100.0 * evaluation::share_above(all, 1.0));
+  std::string line = fmt::format("| {} | {} | {:.3f} | {:.3f} | {} | {:.1f} % | {:.1f} % |",
+                                 row.id,
+                                 method,
+                                 evaluation::mean(means),
+                                 evaluation::median(means),
+                                 to_text(interval_over_worlds(means)),
+                                 100.0 * evaluation::share_above(all, 0.3),
+                                 100.0 * evaluation::share_above(all, 1.0));
   const auto baseline = results.world_means(row.id, kBaseline, start, &StopRecord::estimate_m);
   if (method == kBaseline || baseline.size() != means.size()) return line + " | | |\n";
   const Against against = against_baseline(means, baseline);
-  return line + fmt::format(" {:+.3f} [{:+.3f}, {:+.3f}] | {:.2f} | {} |\n",
-                            against.difference_m,
-                            against.interval.low,
-                            against.interval.high,
+  return line + fmt::format(" {} | {:.2f} | {} |\n",
+                            difference_text(against),
                             against.ratio,
                             method == kOurs && start == Start::kLocal
                                 ? goal_text(row, against.ratio, evaluation::mean(means))
@@ -127,7 +137,7 @@ std::string fig3_table(const Results& results, Start start) {
   std::string table = "| row |";
   std::string rule = "|---|";
   for (const std::string& method : methods) {
-    table += fmt::format(" {} |", method);
+    table += fmt::format(" {} |", column_name(method));
     rule += "---|";
   }
   table += " odometry |";
@@ -142,7 +152,7 @@ std::string fig3_table(const Results& results, Start start) {
   for (const Row& row : results.experiment().rows) {
     table += fmt::format("| {} |", row.id);
     for (const std::string& method : methods) {
-      table += fmt::format(" {} |", best_and_min(results, row.id, method, start));
+      table += fmt::format(" {} |", estimate_and_min(results, row.id, method, start));
     }
     table += fmt::format(" {} |", odometry_of(results, row.id, start));
     if (printed) {
@@ -265,12 +275,10 @@ std::string ablation_table(const Results& results, Start start) {
     table += fmt::format("| {} |", row.id);
     for (const std::string& method : methods) {
       const auto means = results.world_means(row.id, method, start, &StopRecord::estimate_m);
-      const Interval interval = interval_over_worlds(means);
       table += means.empty() ? " |"
-                             : fmt::format(" {:.3f} ({:.3f}–{:.3f}) |",
+                             : fmt::format(" {:.3f} ({}) |",
                                            evaluation::mean(means),
-                                           interval.low,
-                                           interval.high);
+                                           to_text(interval_over_worlds(means)));
     }
     table += "\n";
   }

@@ -8,12 +8,14 @@
 
 namespace semview::paper2017 {
 
-/// Fig. 3, right: "best (min)" of identity, weighted, ours and odometry beside what is printed.
-/// Of ours, best is its own estimate. Columns of other methods follow.
+/// Fig. 3, right: the mean error of each method's estimate, and of its nearest particle ("min"),
+/// beside what is printed. Columns are named after their quantity: the paper's methods answer with
+/// their best particle, ours and those of others with an estimate of their own.
 std::string fig3_table(const Results& results, Start start);
 
-/// Of each row and method: mean, median over worlds, 95 % interval over worlds, stops above 0.3 m
-/// and 1 m, the paired difference to weighted and its interval, the ratio, and ours against goals.
+/// Of each row and method, by the errors of `fig3_table`: mean, median over worlds, 95 % interval
+/// over worlds, stops above 0.3 m and 1 m, the paired difference to weighted and its interval, the
+/// ratio, and ours against goals.
 std::string spread_table(const Results& results, Start start);
 
 /// From which image on the error stays below half a metre.

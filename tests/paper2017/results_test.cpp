@@ -2,6 +2,8 @@
 /// From drives to the numbers of the tables.
 #include "experiments/paper2017/results.hpp"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +63,8 @@ TEST(TablesTest, ShowErrorsSharesDifferencesAndRatios) {
   const Results results(experiment);
   const std::string fig3 = fig3_table(results, Start::kLocal);
   EXPECT_THAT(fig3,
+              HasSubstr("| row | weighted: best (min) | ours: own estimate (min) | odometry |"));
+  EXPECT_THAT(fig3,
               HasSubstr("| unmodified | 0.500 (0.250) | 0.150 (0.075) | 1.000 | 0.160 (0.023) | "
                         "0.120 (0.020) | 0.260 |"));
   const std::string spread = spread_table(results, Start::kLocal);
@@ -68,6 +72,24 @@ TEST(TablesTest, ShowErrorsSharesDifferencesAndRatios) {
   EXPECT_THAT(spread, HasSubstr("| unmodified | weighted | 0.500 | 0.500 |"));
   EXPECT_THAT(spread, HasSubstr("| 50.0 % | 25.0 % |"));
   EXPECT_THAT(spread, HasSubstr("+0.350 [+0.200, +0.500] | 3.33 |"));
+}
+
+TEST(TablesTest, AForeignProgramsColumnNamesItsEstimate) {
+  Experiment experiment = two_worlds();
+  experiment.trials.push_back(drive("theirs", 1, {0.2}));
+  experiment.trials.back().stops.front().min_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(fig3_table(Results(experiment), Start::kLocal),
+              HasSubstr("| theirs: own estimate |"));
+}
+
+TEST(TablesTest, OneWorldHasNoIntervalOverWorlds) {
+  Experiment experiment = two_worlds();
+  experiment.config.worlds = {1};
+  const Results results(experiment);
+  EXPECT_FALSE(interval_over_worlds({0.3}));
+  const std::string spread = spread_table(results, Start::kLocal);
+  EXPECT_THAT(spread, HasSubstr("| unmodified | weighted | 0.300 | 0.300 | - | 50.0 % |"));
+  EXPECT_THAT(spread, HasSubstr("| +0.200 [-] | 3.00 |"));
 }
 
 }  // namespace
