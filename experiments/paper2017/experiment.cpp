@@ -51,6 +51,11 @@ std::string first_line_of(const ExperimentConfig& config, const Row& row) {
   return first_line(of_row);
 }
 
+Status check_trials(std::string_view csv, std::string_view name) {
+  const auto trials = parse_trials(csv, name);
+  return trials ? Status() : fail(trials.error());
+}
+
 struct Unit {
   const Row* row = nullptr;
   std::size_t world = 0;  ///< in `Experiment::worlds`
@@ -91,9 +96,7 @@ class Runner {
                               "--out",
                               "go on with --resume, or choose another --out"});
           }
-          if (const auto rows = read_unit(unit.file, first_line_of(config_, row)); !rows) {
-            return fail(rows.error());
-          }
+          if (const auto rows = rows_of_unit(unit); !rows) return fail(rows.error());
         }
         units_.push_back(std::move(unit));
       }
@@ -101,6 +104,10 @@ class Runner {
     std::error_code ignored;
     std::filesystem::create_directories(config_.out / "units", ignored);
     return io::write_text_file(config_.out / "settings.txt", describe(config_));
+  }
+
+  Result<std::string> rows_of_unit(const Unit& unit) const {
+    return read_unit(unit.file, first_line_of(config_, *unit.row), csv_header(), check_trials);
   }
 
   void make_worlds() {
@@ -176,6 +183,8 @@ class Runner {
     const auto finished =
         static_cast<std::size_t>(std::ranges::count(units_, true, &Unit::finished));
     std::size_t done = finished;
+    experiment_.units = units_.size();
+    experiment_.kept_units = finished;
     pool_.parallel_for(units_.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (units_[i].finished || failed) continue;
@@ -208,14 +217,16 @@ class Runner {
     // The results last: where they are, the unit is finished.
     std::filesystem::path times_file = unit.file;
     SEMVIEW_TRY_STATUS(io::write_text_file(times_file.replace_extension(".times.csv"), times));
-    return io::write_text_file(unit.file, unit_text(drives, first_line_of(config_, *unit.row)));
+    std::string csv = csv_header();
+    for (const TrialRecord& drive : drives) csv += to_csv(drive);
+    return io::write_text_file(unit.file, unit_text(csv, first_line_of(config_, *unit.row)));
   }
 
   /// From the files, finished now or earlier: tables cannot differ from what is stored.
   Status collect() {
     std::string all = first_line(config_) + csv_header();
     for (const Unit& unit : units_) {
-      SEMVIEW_TRY(const std::string rows, read_unit(unit.file, first_line_of(config_, *unit.row)));
+      SEMVIEW_TRY(const std::string rows, rows_of_unit(unit));
       all += rows;
       SEMVIEW_TRY(std::vector<TrialRecord> trials, parse_trials(rows, unit.file.string()));
       for (TrialRecord& trial : trials) experiment_.trials.push_back(std::move(trial));
@@ -233,22 +244,7 @@ class Runner {
 
 }  // namespace
 
-Result<std::vector<Row>> rows_of(const ExperimentConfig& config) {
-  if (config.rows.empty()) return all_rows();
-  std::vector<Row> rows;
-  for (const std::string& id : config.rows) {
-    const Row* found = find_row(id);
-    if (found == nullptr) {
-      std::string known;
-      for (const Row& row : all_rows()) known += (known.empty() ? "" : ", ") + row.id;
-      return fail(Error{ErrorCode::kInvalidArgument,
-                        fmt::format("--rows {}: expected some of {}", id, known),
-                        "--rows"});
-    }
-    rows.push_back(*found);
-  }
-  return rows;
-}
+Result<std::vector<Row>> rows_of(const ExperimentConfig& config) { return rows_by_id(config.rows); }
 
 Status validate(const ExperimentConfig& config) {
   const auto refuse = [](const char* option, std::string message) {

@@ -57,6 +57,8 @@ struct Experiment {
   std::vector<World> worlds;          ///< as `config.worlds`
   std::string means_over = "worlds";  ///< what tables call them
   std::vector<TrialRecord> trials;    ///< by rows, then worlds
+  std::size_t units = 0;              ///< a row on a world each
+  std::size_t kept_units = 0;         ///< of them, from an earlier run
 };
 
 /// Leaves in `config.out`: a file a row and world in `units/` (written when it is finished, with a

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "records.hpp"
 
-#include <charconv>
 #include <cstddef>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "csv_fields.hpp"
 #include "semview/geometry/angle.hpp"
 
 namespace semview::paper2017 {
@@ -14,38 +13,22 @@ namespace {
 
 constexpr std::size_t kColumns = 19;
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-template <typename Number>
-bool parse(std::string_view text, Number& number) {
-  const char* const end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, number);
-  return status == std::errc() && stop == end;
-}
-
 /// The fields after row, method and start.
 bool parse_numbers(const std::vector<std::string_view>& fields,
                    TrialRecord& record,
                    StopRecord& stop) {
   std::uint64_t observation_seed = 0;
   double heading_deg = 0.0;
-  const bool complete = parse(fields[3], record.world) && parse(fields[4], observation_seed) &&
-                        parse(fields[5], record.filter_seed) && parse(fields[6], stop.stop) &&
-                        parse(fields[7], stop.best_m) && parse(fields[8], stop.estimate_m) &&
-                        parse(fields[9], stop.weighted_mean_m) && parse(fields[10], stop.mean_m) &&
-                        parse(fields[11], stop.min_m) && parse(fields[12], heading_deg) &&
-                        parse(fields[13], stop.odometry_m) && parse(fields[14], stop.particles) &&
-                        parse(fields[15], stop.effective_sample_size) &&
-                        parse(fields[16], stop.affine.a) && parse(fields[17], stop.affine.b) &&
-                        parse(fields[18], stop.affine.k);
+  const bool complete =
+      parse_number(fields[3], record.world) && parse_number(fields[4], observation_seed) &&
+      parse_number(fields[5], record.filter_seed) && parse_number(fields[6], stop.stop) &&
+      parse_number(fields[7], stop.best_m) && parse_number(fields[8], stop.estimate_m) &&
+      parse_number(fields[9], stop.weighted_mean_m) && parse_number(fields[10], stop.mean_m) &&
+      parse_number(fields[11], stop.min_m) && parse_number(fields[12], heading_deg) &&
+      parse_number(fields[13], stop.odometry_m) && parse_number(fields[14], stop.particles) &&
+      parse_number(fields[15], stop.effective_sample_size) &&
+      parse_number(fields[16], stop.affine.a) && parse_number(fields[17], stop.affine.b) &&
+      parse_number(fields[18], stop.affine.k);
   stop.heading_rad = rad_from_deg(heading_deg);
   return complete;
 }
@@ -95,11 +78,9 @@ std::string to_csv(const TrialRecord& record) {
 Result<std::vector<TrialRecord>> parse_trials(std::string_view text, std::string_view name_) {
   std::vector<TrialRecord> records;
   for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = take_line(text);
     if (line.empty() || line.front() == '#' || line.starts_with("row,")) continue;
-    const std::vector<std::string_view> fields = split(line);
+    const std::vector<std::string_view> fields = fields_of(line);
     TrialRecord record;
     StopRecord stop;
     if (fields.size() != kColumns || (fields[2] != "local" && fields[2] != "global") ||

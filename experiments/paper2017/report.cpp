@@ -12,6 +12,15 @@
 namespace semview::paper2017 {
 namespace {
 
+/// A resumed run's time is that of what was left to do.
+std::string time_text(const Experiment& experiment, double wall_s) {
+  if (experiment.kept_units == 0) return fmt::format("{:.0f} s", wall_s);
+  return fmt::format("{:.0f} s for {} of {} rows on worlds, the others of earlier runs",
+                     wall_s,
+                     experiment.units - experiment.kept_units,
+                     experiment.units);
+}
+
 std::string head(const Results& results, const ReportHeader& header) {
   const Experiment& experiment = results.experiment();
   std::string worlds;
@@ -20,14 +29,14 @@ std::string head(const Results& results, const ReportHeader& header) {
       kObservationScene, kObservationRenderer, kMapScene, "engine " + experiment.config.engine};
   return fmt::format(
       "# Neubert, Schubert, Protzel 2017 on generated worlds\n\n"
-      "`{}`, commit {}, {}, {} threads, {:.0f} s.\n"
+      "`{}`, commit {}, {}, {} threads, {}.\n"
       "{} rows, {} worlds{} by seed, {} runs each, seed {}.\n"
       "{}.\n",
       header.command,
       header.revision,
       header.cpu,
       header.threads,
-      header.wall_s,
+      time_text(experiment, header.wall_s),
       experiment.rows.size(),
       name(experiment.use),
       worlds,
@@ -54,11 +63,12 @@ std::string report(const Results& results, const ReportHeader& header) {
     if (!table.empty()) text += fmt::format("\n## {}\n\n{}", title, table);
   };
   for (const Start start : results.experiment().config.starts) {
-    section(fmt::format("Fig. 3, {} localization: mean error in m, best (min)", name(start)),
+    section(fmt::format("Fig. 3, {} localization: mean error in m", name(start)),
             fig3_table(results, start));
   }
   for (const Start start : results.experiment().config.starts) {
-    section(fmt::format("Spread, {} localization", name(start)), spread_table(results, start));
+    section(fmt::format("Spread of the same errors, {} localization", name(start)),
+            spread_table(results, start));
     section(fmt::format("Mean error in m at each image, {} localization", name(start)),
             image_table(results, start));
     section(fmt::format("The map's distortion after the last image, {} localization", name(start)),

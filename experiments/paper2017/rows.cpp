@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+
 #include "semview/core/check.hpp"
 
 namespace semview::paper2017 {
@@ -123,6 +125,23 @@ const Row* find_row(std::string_view id) {
   const auto& rows = all_rows();
   const auto found = std::ranges::find(rows, id, &Row::id);
   return found == rows.end() ? nullptr : &*found;
+}
+
+Result<std::vector<Row>> rows_by_id(std::span<const std::string> ids) {
+  if (ids.empty()) return all_rows();
+  std::vector<Row> rows;
+  for (const std::string& id : ids) {
+    const Row* found = find_row(id);
+    if (found == nullptr) {
+      std::string known;
+      for (const Row& row : all_rows()) known += (known.empty() ? "" : ", ") + row.id;
+      return fail(Error{ErrorCode::kInvalidArgument,
+                        fmt::format("--rows {}: expected some of {}", id, known),
+                        "--rows"});
+    }
+    rows.push_back(*found);
+  }
+  return rows;
 }
 
 }  // namespace semview::paper2017

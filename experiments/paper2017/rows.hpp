@@ -2,11 +2,13 @@
 /// The eighteen rows of the paper's Fig. 3: what is done to the map, the view or the classes.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "plan_drawing.hpp"
+#include "semview/core/result.hpp"
 #include "semview/geometry/affine.hpp"
 #include "semview/geometry/angle.hpp"
 
@@ -43,5 +45,8 @@ const std::vector<Row>& all_rows();
 
 /// Null if there is none of that id.
 const Row* find_row(std::string_view id);
+
+/// None named: all. @errors kInvalidArgument, field `--rows`: an id that there is not.
+Result<std::vector<Row>> rows_by_id(std::span<const std::string> ids);
 
 }  // namespace semview::paper2017

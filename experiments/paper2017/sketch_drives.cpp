@@ -2,6 +2,7 @@
 #include "sketch_drives.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/similarity/weight_matrix.hpp"
+#include "sketch_units.hpp"
 #include "trial.hpp"
 #include "unit.hpp"
 
@@ -230,6 +232,31 @@ Status validate(const SketchSettings& settings) {
   return service::validate(site_config(settings.engine));
 }
 
+std::string describe(const SketchSettings& settings) {
+  const SketchConfig& sketch = settings.sketch;
+  std::string text = fmt::format("format: 1\nengine: {}\nruns: {}, seed {}\nstarts:",
+                                 settings.engine,
+                                 settings.runs,
+                                 settings.seed);
+  for (const Start start : settings.starts) text += fmt::format(" {}", name(start));
+  text += fmt::format(
+      "\nsketches: rooms by {} to {}, ends of walls {} to {} m, walls missing {}, furniture "
+      "missing "
+      "{}, swapped {}\n",
+      sketch.least_factor,
+      sketch.most_factor,
+      sketch.least_end_m,
+      sketch.most_end_m,
+      sketch.missing_walls,
+      sketch.missing_furniture,
+      sketch.swapped_furniture);
+  text += describe(settings.world);
+  if (const auto methods = methods_of(settings)) {
+    for (const Method& method : *methods) text += describe(method) + '\n';
+  }
+  return text;
+}
+
 Sketch sketch_of(const SketchSettings& settings,
                  const World& world,
                  std::uint64_t seed,
@@ -241,29 +268,30 @@ Result<std::vector<SketchDrive>> drive_sketches(
     const SketchSettings& settings, const std::function<void(std::size_t, std::size_t)>& progress) {
   SEMVIEW_TRY_STATUS(validate(settings));
   SEMVIEW_TRY_STATUS(io::check_output_folder(settings.out));
+  SEMVIEW_TRY(const SketchUnits sketches, SketchUnits::open(settings, describe(settings)));
+  std::vector<SketchUnits::Unit> left;
+  std::ranges::copy_if(
+      sketches.units(), std::back_inserter(left), [](const auto& unit) { return !unit.finished; });
+  if (left.empty()) return sketches.read_all();
   SEMVIEW_TRY(std::vector<Method> methods, methods_of(settings));
   ThreadPool pool(settings.threads);
   SEMVIEW_TRY(Weights weights, load_weights(settings, pool));
   const Common common{settings, std::move(methods), std::move(weights)};
-  const auto sketches = static_cast<std::size_t>(settings.sketches);
-  std::vector<std::optional<Result<std::vector<SketchDrive>>>> done(settings.worlds.size() *
-                                                                    sketches);
   std::mutex mutex;
-  std::size_t finished = 0;
-  pool.parallel_for(done.size(), 1, [&](std::size_t begin, std::size_t end) {
+  Status first_error;
+  std::size_t finished = sketches.units().size() - left.size();
+  pool.parallel_for(left.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      done[i] =
-          drive_sketch(common, settings.worlds[i / sketches], static_cast<int>(i % sketches) + 1);
+      const auto drives = drive_sketch(common, left[i].world, left[i].sketch);
+      Status kept = drives ? sketches.keep(left[i], *drives) : fail(drives.error());
       const std::lock_guard lock(mutex);
-      progress(++finished, done.size());
+      if (!kept && first_error) first_error = std::move(kept);
+      progress(++finished, sketches.units().size());
     }
   });
-  std::vector<SketchDrive> all;
-  for (auto& one : done) {
-    SEMVIEW_TRY(std::vector<SketchDrive> drives, *std::move(one));
-    for (SketchDrive& drive : drives) all.push_back(std::move(drive));
-  }
-  return all;
+  SEMVIEW_TRY_STATUS(std::move(first_error));
+  // From the files, finished now or earlier: tables cannot differ from what is stored.
+  return sketches.read_all();
 }
 
 }  // namespace semview::paper2017

@@ -26,6 +26,7 @@ struct SketchSettings {
   std::string engine = "auto";       ///< what casts the sketch's views
   std::vector<std::string> methods;  ///< ids of `sketch_methods`; none: all
   std::vector<Start> starts = {Start::kLocal, Start::kGlobal};
+  bool resume = false;  ///< keep what is finished in `out`
   std::filesystem::path out;
   WorldConfig world;
   SketchConfig sketch;
@@ -61,6 +62,9 @@ bool in_right_order(const SketchDrive& drive);
 /// @errors kInvalidArgument, with the option of the command line as the error's field.
 Status validate(const SketchSettings& settings);
 
+/// All that a drive depends on but its world and the sketch's number, a line each.
+std::string describe(const SketchSettings& settings);
+
 /// The sketch of a world; numbers count from 1.
 Sketch sketch_of(const SketchSettings& settings,
                  const World& world,
@@ -68,9 +72,10 @@ Sketch sketch_of(const SketchSettings& settings,
                  int number);
 
 /// All drives by worlds, sketches, methods (odometry last), starts, runs. Equal settings give equal
-/// drives for any number of threads. Leaves `plans/` in `settings.out`.
+/// drives for any number of threads, resumed or not. Leaves `plans/` in `settings.out`, and a file
+/// a sketch in `units/`, written when it is finished; drives are what stands there.
 /// @param progress  called with the sketches that are done and all, by one thread at a time
-/// @errors those of `validate`, of drawing and opening maps and of scoring.
+/// @errors those of `validate` and `SketchUnits::open`, of drawing and opening maps and of scoring.
 Result<std::vector<SketchDrive>> drive_sketches(
     const SketchSettings& settings, const std::function<void(std::size_t, std::size_t)>& progress);
 

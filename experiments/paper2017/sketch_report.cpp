@@ -59,10 +59,6 @@ SketchSummary summary_of(std::span<const SketchDrive* const> drives) {
   return summary;
 }
 
-std::string room_text(std::size_t room) {
-  return room == kNoRoom ? std::string() : fmt::format("{}", room);
-}
-
 }  // namespace
 
 std::vector<SketchSummary> summarize(std::span<const SketchDrive> drives) {
@@ -100,31 +96,6 @@ std::string to_markdown(std::span<const SketchSummary> summaries) {
         100.0 * one.right_order_share,
         one.mean_error_m,
         one.median_error_m);
-  }
-  return text;
-}
-
-std::string to_csv(std::span<const SketchDrive> drives) {
-  std::string text =
-      "world,sketch,method,start,run,stop,true_room,found_room,true_x_m,true_y_m,x_m,y_m,yaw_rad\n";
-  for (const SketchDrive& drive : drives) {
-    for (std::size_t i = 0; i < drive.stops.size(); ++i) {
-      const SketchStop& stop = drive.stops[i];
-      text += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n",
-                          drive.world,
-                          drive.sketch,
-                          drive.method,
-                          name(drive.start),
-                          drive.run,
-                          i + 1,
-                          room_text(stop.true_room),
-                          room_text(stop.found_room),
-                          stop.true_place.x_m,
-                          stop.true_place.y_m,
-                          stop.estimate.x_m,
-                          stop.estimate.y_m,
-                          stop.estimate.yaw_rad);
-    }
   }
   return text;
 }

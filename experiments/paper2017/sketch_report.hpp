@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What came out on sketches: a table, and a line a stop.
+/// What came out on sketches, as a table.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,5 @@ std::vector<SketchSummary> summarize(std::span<const SketchDrive> drives);
 
 /// A table in Markdown.
 std::string to_markdown(std::span<const SketchSummary> summaries);
-
-/// One line a stop, with a header. Equal drives make equal bytes.
-std::string to_csv(std::span<const SketchDrive> drives);
 
 }  // namespace semview::paper2017

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit_file.hpp"
 
-#include <string_view>
-
 #include <fmt/format.h>
 
 #include "semview/io/text_file.hpp"
@@ -20,15 +18,16 @@ tl::unexpected<Error> refuse(std::string message, std::string hint) {
 
 }  // namespace
 
-std::string unit_text(std::span<const TrialRecord> drives, const std::string& first_line) {
-  std::string text = first_line + csv_header();
-  for (const TrialRecord& drive : drives) text += to_csv(drive);
-  return text.append(kLastLine);
+std::string unit_text(std::string_view csv, std::string_view first_line) {
+  return std::string(first_line).append(csv).append(kLastLine);
 }
 
-Result<std::string> read_unit(const std::filesystem::path& file, const std::string& first_line) {
+Result<std::string> read_unit(const std::filesystem::path& file,
+                              std::string_view first_line,
+                              std::string_view header,
+                              const UnitCheck& check) {
   SEMVIEW_TRY(std::string text, io::read_text_file(file, kMaxBytes));
-  const std::string head = first_line + csv_header();
+  const std::string head = std::string(first_line).append(header);
   if (!text.starts_with(first_line)) {
     return refuse(fmt::format("{}: was made with other settings or methods than those asked for",
                               file.string()),
@@ -38,8 +37,8 @@ Result<std::string> read_unit(const std::filesystem::path& file, const std::stri
   if (!text.starts_with(head) || !text.ends_with(kLastLine)) {
     return refuse(fmt::format("{}: was cut, its last line is not '# end'", file.string()), again);
   }
-  if (const auto trials = parse_trials(text, file.string()); !trials) {
-    return refuse(trials.error().message, again);
+  if (const Status readable = check(text, file.string()); !readable) {
+    return refuse(readable.error().message, again);
   }
   return text.substr(head.size(), text.size() - head.size() - kLastLine.size());
 }

@@ -3,9 +3,12 @@
 #include "experiments/paper2017/sketch_drives.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/paper2017/sketch_records.hpp"
 #include "experiments/paper2017/sketch_report.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -40,7 +43,7 @@ TEST(SketchDrivesTest, OursFindsRoomsAtLeastAsOftenAsThePapersMethodAndOdometry)
   }
 }
 
-TEST(SketchDrivesTest, ThreadsChangeNoByte) {
+TEST(SketchDrivesTest, ThreadsAndResumingChangeNoByte) {
   const TemporaryFolder folder;
   SketchSettings settings;
   settings.worlds = {1};
@@ -57,6 +60,40 @@ TEST(SketchDrivesTest, ThreadsChangeNoByte) {
   ASSERT_TRUE(one);
   ASSERT_TRUE(two);
   EXPECT_EQ(to_csv(*one), to_csv(*two));
+
+  ASSERT_TRUE(std::filesystem::remove(settings.out / "units/world_1_sketch_2.csv"));
+  settings.resume = true;
+  std::size_t calls = 0;
+  const auto resumed = drive_sketches(settings, [&](std::size_t done, std::size_t all) {
+    ++calls;
+    EXPECT_EQ(done, 2U);
+    EXPECT_EQ(all, 2U);
+  });
+  ASSERT_TRUE(resumed);
+  EXPECT_EQ(calls, 1U) << "one sketch is done again, the other kept";
+  EXPECT_EQ(to_csv(*one), to_csv(*resumed));
+}
+
+TEST(SketchDrivesTest, ResultsOfOtherSettingsAreNeitherReplacedNorMixedIn) {
+  const TemporaryFolder folder;
+  SketchSettings settings;
+  settings.worlds = {1};
+  settings.sketches = 1;
+  settings.runs = 1;
+  settings.methods = {"weighted"};
+  settings.starts = {Start::kLocal};
+  settings.out = folder / "out";
+  const auto silent = [](std::size_t, std::size_t) {};
+  ASSERT_TRUE(drive_sketches(settings, silent));
+  const auto again = drive_sketches(settings, silent);
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().message, ::testing::HasSubstr("holds results already"));
+  EXPECT_THAT(again.error().hint, ::testing::HasSubstr("--resume"));
+  settings.resume = true;
+  settings.seed = 2;
+  const auto other = drive_sketches(settings, silent);
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().message, ::testing::HasSubstr("was made with other settings"));
 }
 
 }  // namespace
