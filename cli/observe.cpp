@@ -50,6 +50,9 @@ Result<Observed> observe_photos(const ObserveOptions& options, const segmentatio
   std::vector<RgbImage> photos;
   for (const std::string& file : options.images) {
     SEMVIEW_TRY(RgbImage photo, io::read_photo(file));
+    if (options.equirectangular) {
+      SEMVIEW_TRY_STATUS(check_whole_sphere(file, photo.columns(), photo.rows()));
+    }
     photos.push_back(std::move(photo));
   }
   Result<ObservedPanorama> panorama =
@@ -94,6 +97,9 @@ Result<Observed> observe_labels(const ObserveOptions& options, const segmentatio
   std::vector<LabelImage> images;
   for (const std::string& file : options.images) {
     SEMVIEW_TRY(LabelImage labels, read_foreign_labels(file, options.first_value, classes.size()));
+    if (options.equirectangular) {
+      SEMVIEW_TRY_STATUS(check_whole_sphere(file, labels.columns(), labels.rows()));
+    }
     images.push_back(std::move(labels));
   }
   SEMVIEW_TRY(ObservedPanorama panorama,
@@ -105,8 +111,11 @@ Status write_overlay(const ObserveOptions& options, const Observed& observed) {
   const PartialPanorama& camera = observed.panorama.camera;
   const LabelImage& labels = observed.panorama.segmentation.labels;
   picture::ViewPictureOptions picture;
-  picture.title = fmt::format(
-      "{} ({})", std::filesystem::path(options.images.front()).filename().string(), observed.by);
+  const std::size_t more = options.images.size() - 1;
+  picture.title = fmt::format("{}{} ({})",
+                              std::filesystem::path(options.images.front()).filename().string(),
+                              more == 0 ? "" : fmt::format(" and {} more", more),
+                              observed.by);
   picture.axes = PanoramaCamera{
       camera.columns, camera.rows, camera.elevation_min_rad, camera.elevation_max_rad};
   const auto palette = picture::ClassPalette::for_classes(observed.classes);
@@ -168,8 +177,10 @@ nlohmann::ordered_json summary_of(const ObserveOptions& options,
 
 void print_summary(const nlohmann::ordered_json& summary) {
   fmt::print(
-      "{}: {} x {} pixels, {:.0f} deg wide, {:.0f} to {:.0f} deg high, {:.0f} % known, mean "
-      "confidence {:.2f}; {}\n",
+      "{}: {} x {} pixels of a whole turn, {:.0f} deg of it seen, {:.0f} to {:.0f} deg high, "
+      "{:.0f} "
+      "% known, mean confidence {:.2f}; {}\nof the known pixels (an overlay's legend counts "
+      "all):\n",
       summary["observation"].get<std::string>(),
       summary["columns"].get<int>(),
       summary["rows"].get<int>(),

@@ -112,6 +112,20 @@ Result<segmentation::CameraRig> observe_rig(const ObserveOptions& options) {
   return rig;
 }
 
+Status check_whole_sphere(const std::string& file, int columns, int rows) {
+  constexpr double kTolerance = 0.02;
+  if (std::abs(columns / (2.0 * rows) - 1.0) <= kTolerance) return {};
+  return fail(Error{ErrorCode::kInvalidArgument,
+                    fmt::format("{}: {} x {} pixels, expected twice as wide as high of a "
+                                "photograph of the whole sphere",
+                                file,
+                                columns,
+                                rows),
+                    {},
+                    "say with --camera RIG.yaml what took it (docs/formats/camera_rig.md), also "
+                    "where a panorama shows a part of the sphere"});
+}
+
 Result<std::unique_ptr<segmentation::OnnxSegmenter>> open_segmenter(const std::string& model) {
   SEMVIEW_TRY(const std::filesystem::path file,
               segmentation::find_segmentation_model(model, data_folder() / "models"));

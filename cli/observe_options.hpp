@@ -45,6 +45,11 @@ Status check_observe_options(const ObserveOptions& options);
 /// @errors those of `read_camera_rig`; kInvalidArgument: another number of images than cameras.
 Result<segmentation::CameraRig> observe_rig(const ObserveOptions& options);
 
+/// Whether a picture may be a photograph of the whole sphere: one of another shape would be
+/// stretched over it, and nothing in the result would look wrong.
+/// @errors kInvalidArgument: not twice as wide as high, within 2 %.
+Status check_whole_sphere(const std::string& file, int columns, int rows);
+
 /// The network of a model that is given by name or path, among those installed with this program.
 Result<std::unique_ptr<segmentation::OnnxSegmenter>> open_segmenter(const std::string& model);
 

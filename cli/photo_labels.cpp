@@ -15,6 +15,9 @@ Result<Observation> PhotoLabeller::observe(const std::vector<std::filesystem::pa
   std::vector<RgbImage> photos;
   for (const std::filesystem::path& file : files) {
     SEMVIEW_TRY(RgbImage photo, io::read_photo(file));
+    if (whole_sphere) {
+      SEMVIEW_TRY_STATUS(check_whole_sphere(file.string(), photo.columns(), photo.rows()));
+    }
     photos.push_back(std::move(photo));
   }
   SEMVIEW_TRY(const segmentation::ObservedPanorama seen,
@@ -26,6 +29,7 @@ Result<PhotoLabeller> open_photo_labeller(const std::string& model, const std::s
   PhotoLabeller labeller;
   // Where the camera stands above the floor is the search's to know, not the labels'.
   labeller.rig = segmentation::equirectangular_rig(ObserveOptions{}.eye_height_m);
+  labeller.whole_sphere = camera.empty();
   if (!camera.empty()) {
     SEMVIEW_TRY(labeller.rig, segmentation::read_camera_rig(camera));
   }

@@ -18,9 +18,10 @@ namespace semview::cli {
 struct PhotoLabeller {
   segmentation::CameraRig rig;
   std::unique_ptr<segmentation::Segmenter> segmenter;
+  bool whole_sphere = false;  ///< the rig is one level equirectangular photograph
 
   /// @param files  one a camera of the rig
-  /// @errors those of `io::read_photo` and `segmentation::observe`.
+  /// @errors those of `io::read_photo`, `check_whole_sphere` and `segmentation::observe`.
   Result<Observation> observe(const std::vector<std::filesystem::path>& files,
                               double stamp_s,
                               const PanoramaCamera& profile) const;

@@ -124,6 +124,13 @@ Result<std::vector<KnownPicture>> simulate_pictures(const SimulatedPictures& con
                                                     const map::CellGrid& cells,
                                                     const PanoramaCamera& profile) {
   SEMVIEW_TRY(const map::SemanticMap world, map::load_map(config.world));
+  if (world.fingerprint == config.searched) {
+    return fail(Error{ErrorCode::kFailedPrecondition,
+                      fmt::format("--world {}: is the map itself: finding a map's own views in it "
+                                  "proves nothing; expected another model of the same building",
+                                  config.world),
+                      "--world"});
+  }
   SEMVIEW_TRY(const raycast::Scene scene, raycast::Scene::build(world));
   const std::vector<simulation::ClassFate> fates =
       simulation::photograph_fates({world.classes.names().begin(), world.classes.names().end()});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "photo_labels.hpp"
+#include "semview/core/hash.hpp"
 #include "semview/core/result.hpp"
 #include "semview/geometry/panorama_camera.hpp"
 #include "semview/map/cell_grid.hpp"
@@ -35,6 +36,7 @@ Result<std::vector<KnownPicture>> read_picture_list(const std::filesystem::path&
 
 struct SimulatedPictures {
   std::string world;            ///< a map whose views are photographed, a mesh mostly
+  Fingerprint searched = {};    ///< of the map that the pictures are looked for in: another one
   double world_ground_m = 0.0;  ///< the storey's floor in the world's z
   double eye_height_m = 1.45;   ///< ± 5 cm, above that floor
   int pictures = 100;
@@ -43,7 +45,8 @@ struct SimulatedPictures {
 
 /// Photographs (`simulation::photograph`) taken at random places of free cells of the map, off the
 /// grid, at random headings, by the world's own geometry and Embree.
-/// @errors those of loading the world.
+/// @errors those of loading the world; kFailedPrecondition: it is the map that is searched, so that
+/// finding its views there would prove nothing.
 Result<std::vector<KnownPicture>> simulate_pictures(const SimulatedPictures& config,
                                                     const map::CellGrid& cells,
                                                     const PanoramaCamera& profile);

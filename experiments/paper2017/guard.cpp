@@ -91,23 +91,6 @@ Status check_starts(std::span<const Start> starts) {
   return check_each_once("--starts", names);
 }
 
-Status check_provenance(const Provenance& provenance) {
-  const auto shared = [](std::string_view what, const std::string& name) {
-    return fail(ErrorCode::kFailedPrecondition,
-                fmt::format("camera and map have one {}, {}: their agreement would prove nothing; "
-                            "expected two",
-                            what,
-                            name));
-  };
-  if (provenance.observation_scene == provenance.map_scene) {
-    return shared("scene", provenance.map_scene);
-  }
-  if (provenance.observation_renderer == provenance.map_renderer) {
-    return shared("renderer", provenance.map_renderer);
-  }
-  return {};
-}
-
 std::string to_text(const Provenance& provenance) {
   return fmt::format("observations: {}, cast by {}; map: {}, cast by {}",
                      provenance.observation_scene,

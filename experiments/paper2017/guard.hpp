@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What keeps the experiment honest: no world serves for two purposes, and nobody renders both
-/// what the camera sees and what the map predicts.
+/// What keeps the experiment honest: no world serves for two purposes. That nobody renders both
+/// what the camera sees and what the map predicts is for tests to see: the camera's sources include
+/// nothing of the map's.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,7 @@ Status check_each_once(std::string_view option, std::span<const std::string> val
 /// @errors kInvalidArgument, field `--starts`: no start, or one twice.
 Status check_starts(std::span<const Start> starts);
 
-/// Who renders what, from what.
+/// Who renders what, from what, as reports say it.
 struct Provenance {
   std::string observation_scene;     ///< what the camera looks at
   std::string observation_renderer;  ///< who casts its rays
@@ -55,10 +56,6 @@ inline constexpr const char* kObservationScene = "solids built from the layout";
 inline constexpr const char* kObservationRenderer = "a ray caster of oriented primitives";
 inline constexpr const char* kMapScene =
     "a plan drawn of the layout with a person's errors, extruded";
-
-/// @errors kFailedPrecondition: camera and map share their scene or their renderer. An accuracy
-/// measured so would be that of a renderer in predicting itself.
-Status check_provenance(const Provenance& provenance);
 
 /// One line for reports.
 std::string to_text(const Provenance& provenance);

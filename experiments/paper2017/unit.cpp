@@ -4,9 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "guard.hpp"
 #include "row_map.hpp"
 #include "semview/core/thread_pool.hpp"
 #include "semview/map/cell_grid.hpp"
@@ -15,13 +12,6 @@
 
 namespace semview::paper2017 {
 namespace {
-
-Status check_renderers(const service::Site& site) {
-  return check_provenance({kObservationScene,
-                           kObservationRenderer,
-                           kMapScene,
-                           fmt::format("engine {} {}", site.engine().name, site.engine().version)});
-}
 
 Result<std::vector<TrialRecord>> run_method(const UnitSettings& settings,
                                             const Method& method,
@@ -66,7 +56,6 @@ Result<std::vector<TrialRecord>> run_unit(const UnitSettings& settings,
       if (method.stacked_plan != stacked) continue;
       if (!site) {
         SEMVIEW_TRY(site, open_row_map(row, world_seed, stacked, settings.plans, settings.engine));
-        SEMVIEW_TRY_STATUS(check_renderers(*site));
         cut = cut_world(world, row, site->profile().camera);
         cut.free_cells = site->cells().free_cells();
         cut.map_classes = site->map().classes;

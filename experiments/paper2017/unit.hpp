@@ -35,7 +35,7 @@ std::uint64_t filter_seed(std::uint64_t seed, int run);
 
 /// All drives of a row on a world, in the order of methods, starts, runs. Equal arguments give
 /// equal records but for their times.
-/// @errors those of maps and scoring; kFailedPrecondition: see `check_provenance`.
+/// @errors those of maps and scoring.
 /// @threads for several at once, each with its own arguments
 Result<std::vector<TrialRecord>> run_unit(const UnitSettings& settings,
                                           const std::vector<Method>& methods,

@@ -48,6 +48,13 @@ TEST(OutputPathTest, AFolderMayBeMadeWithThoseAboveIt) {
   EXPECT_TRUE(check_output_folder(folder.path()));
   EXPECT_TRUE(check_output_folder(folder / "a/b/c"));
   EXPECT_TRUE(check_output_folder("new_in_the_working_folder"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a")) << "looking leaves nothing";
+}
+
+TEST(OutputPathTest, AFolderThatNobodyCanMakeIsRefused) {
+  const Status status = check_output_folder("/proc/new");
+  ASSERT_FALSE(status);
+  EXPECT_THAT(status.error().message, HasSubstr("/proc/new: cannot be written: "));
 }
 
 TEST(OutputPathTest, AFolderWithoutTheRightToWriteIsRefused) {

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "experiments/paper2017/guard.hpp"
 
+#include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "semview/io/text_file.hpp"
+#include "support/paths.hpp"
 
 namespace semview::paper2017 {
 namespace {
@@ -38,18 +43,32 @@ TEST(GuardTest, SeedsOfNoUseAndNoSeedsAreRefused) {
   EXPECT_FALSE(check_worlds(Worlds{206}));
 }
 
-TEST(GuardTest, CameraAndMapMayShareNeitherSceneNorRenderer) {
-  const Provenance honest{"solids", "ray caster", "plan", "columns 1"};
-  EXPECT_TRUE(check_provenance(honest));
-  Provenance one_scene = honest;
-  one_scene.observation_scene = "plan";
-  const Status refused = check_provenance(one_scene);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::kFailedPrecondition);
-  EXPECT_THAT(refused.error().message, HasSubstr("one scene, plan"));
-  Provenance one_renderer = honest;
-  one_renderer.observation_renderer = "columns 1";
-  EXPECT_FALSE(check_provenance(one_renderer));
+// Neither code nor geometry of the map and its renderers: else an accuracy would be that of a
+// renderer in predicting itself.
+TEST(GuardTest, TheCamerasSourcesIncludeNothingOfMapsAndTheirRenderers) {
+  const std::string folder = SEMVIEW_SOURCE_DIR "/experiments/paper2017/";
+  for (const char* file : {"scene.hpp",
+                           "scene.cpp",
+                           "scene_builder.hpp",
+                           "scene_builder.cpp",
+                           "label_noise.hpp",
+                           "label_noise.cpp",
+                           "raw_classes.hpp",
+                           "raw_classes.cpp",
+                           "layout.hpp",
+                           "layout.cpp"}) {
+    const auto text = io::read_text_file(folder + file, std::size_t{1} << 20U);
+    ASSERT_TRUE(text) << file;
+    for (const char* stranger : {"semview/map/",
+                                 "semview/mesh/",
+                                 "semview/raycast/",
+                                 "semview/service/",
+                                 "plan_drawing.hpp",
+                                 "row_map.hpp"}) {
+      EXPECT_EQ(text->find(fmt::format("#include \"{}", stranger)), std::string::npos)
+          << file << " includes " << stranger;
+    }
+  }
 }
 
 }  // namespace

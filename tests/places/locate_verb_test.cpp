@@ -130,6 +130,13 @@ TEST_F(LocateVerbTest, AListedPhotographIsLabelledAsObserveLabelsIt) {
   EXPECT_THAT(unlabelled.output, HasSubstr("photos.csv:1: room.png is a photograph; expected"));
 }
 
+TEST_F(LocateVerbTest, AMapIsNotTestedWithPicturesOfItself) {
+  const auto run = testing::run_semview("evaluate images --map " + map_.string() + " --world " +
+                                        map_.string() + " --pictures 1");
+  EXPECT_EQ(run.exit_code, 1) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("is the map itself"));
+}
+
 TEST_F(LocateVerbTest, NamesTheLineOfAListThatIsNone) {
   std::ofstream(file("poses.csv")) << "folder,x_m,y_m,yaw_deg\nobs,0.93,here\n";
   const auto run = testing::run_semview("evaluate images --map " + map_.string() + " --list " +

@@ -123,6 +123,23 @@ TEST_F(ObserveVerbTest, ARigOfSeveralImagesBecomesOnePanorama) {
   EXPECT_EQ(seen.labels.at(45, 10), kUnknown);
 }
 
+TEST_F(ObserveVerbTest, AnOrdinaryPhotographIsNoWholeSphere) {
+  LabelImage labels(48, 64, 1);
+  ASSERT_TRUE(io::write_png(file("photo.png"), labels));
+  EXPECT_EQ(run({"observe",
+                 file("photo.png"),
+                 "--equirectangular",
+                 "--labels",
+                 "--classes",
+                 "ade20k150",
+                 "-o",
+                 file("obs")}),
+            1);
+  EXPECT_THAT(errors_, HasSubstr("photo.png: 64 x 48 pixels, expected twice as wide as high"));
+  EXPECT_THAT(errors_, HasSubstr("--camera RIG.yaml"));
+  EXPECT_FALSE(std::filesystem::exists(file("obs")));
+}
+
 TEST_F(ObserveVerbTest, LabelsOfAnotherProgramEnterByName) {
   LabelImage labels(90, 180, 0);
   for (int r = 45; r < 90; ++r) {

@@ -82,14 +82,23 @@ Status check_output_png(const Path& path) {
 }
 
 Status check_output_folder(const Path& path) {
-  std::error_code ignored;
+  std::error_code error;
+  Path missing;
   Path nearest = path;
-  while (!std::filesystem::exists(nearest, ignored)) {
+  while (!std::filesystem::exists(nearest, error)) {
     const Path above = folder_of(nearest);
     if (above == nearest) break;
+    missing = nearest;
     nearest = above;
   }
-  return check_folder(path, nearest);
+  SEMVIEW_TRY_STATUS(check_folder(path, nearest));
+  if (missing.empty()) return {};
+  // Some places, as /proc, give all rights and take no folders: only trying tells.
+  if (!std::filesystem::create_directory(missing, error) && error) {
+    return cannot_write(path, error.value());
+  }
+  std::filesystem::remove(missing, error);
+  return {};
 }
 
 }  // namespace semview::io

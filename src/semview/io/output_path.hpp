@@ -12,7 +12,8 @@ namespace semview::io {
 /// @errors kUnavailable, with what to do in the hint. Writing can still fail later: a disk fills.
 Status check_output_file(const std::filesystem::path& path);
 
-/// The same of a folder that is made, with those above it, if it is not there.
+/// The same of a folder that is made, with those above it, if it is not there: whether one can be
+/// is tried, and undone.
 Status check_output_folder(const std::filesystem::path& path);
 
 /// The error of a failed write: `error_number` is its `errno`.
