@@ -125,6 +125,7 @@ Status write_fig3(const Results& results, const std::filesystem::path& directory
   plot.x_axis = "image";
   plot.y_axis = "m";
   plot.panel_columns = 2;
+  plot.same_scale = true;
   const std::string row = "unmodified";
   for (const auto& [method, title] : {std::pair("weighted_odometry", "heading by odometry"),
                                       std::pair("weighted", "heading by visual compass")}) {

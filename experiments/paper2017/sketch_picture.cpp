@@ -12,6 +12,7 @@
 #include "plan_drawing.hpp"
 #include "semview/io/png.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/picture/sheet_picture.hpp"
 #include "semview/picture/track_picture.hpp"
 
 namespace semview::paper2017 {
@@ -20,7 +21,6 @@ namespace {
 constexpr double kPixel_m = 0.04;
 constexpr double kLine_px = 1.2;
 constexpr double kDisc_px = 5.5;
-constexpr int kGap_px = 24;
 constexpr Rgb kPaper{255, 255, 255};
 constexpr Rgb kFloor{250, 247, 240};
 
@@ -95,19 +95,21 @@ class Paper {
   Pose2 origin_;
 };
 
-RgbImage side_by_side(const RgbImage& left, const RgbImage& right) {
-  RgbImage both(
-      std::max(left.rows(), right.rows()), left.columns() + kGap_px + right.columns(), kPaper);
-  const auto paste = [&](const RgbImage& image, int from_column) {
-    for (int row = 0; row < image.rows(); ++row) {
-      for (int column = 0; column < image.columns(); ++column) {
-        both.at(row, from_column + column) = image.at(row, column);
-      }
-    }
-  };
-  paste(left, 0);
-  paste(right, left.columns() + kGap_px);
-  return both;
+/// Both plans are in metres of their own: one bar measures both.
+RgbImage sheet_of(const SketchDrive& drive, const RgbImage& building, const RgbImage& sketch) {
+  picture::SheetPicture sheet;
+  sheet.title = fmt::format("World {}: a drive localized on sketch {} by method {}, {} start",
+                            drive.world,
+                            drive.sketch,
+                            drive.method,
+                            drive.start == Start::kLocal ? "known" : "unknown");
+  sheet.panels = {{"the building, with the robot's way and stops", building},
+                  {"the sketch, with the same way and the estimates", sketch}};
+  sheet.marks = {{picture::kTruthColour, "where the robot was"},
+                 {picture::kEstimateColour, "estimate in the right room"},
+                 {picture::kOdometryColour, "estimate in another room"}};
+  sheet.pixels_per_m = 1.0 / kPixel_m;
+  return draw_sheet(sheet);
 }
 
 }  // namespace
@@ -136,7 +138,7 @@ Result<RgbImage> draw_sketch_drive(const SketchSettings& settings, const SketchD
     right.line(stop.true_place, stop.estimate, colour);
     right.disc(stop.estimate, colour, kDisc_px);
   }
-  return side_by_side(left.image(), right.image());
+  return sheet_of(drive, left.image(), right.image());
 }
 
 }  // namespace semview::paper2017

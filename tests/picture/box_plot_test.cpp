@@ -40,6 +40,19 @@ TEST(BoxPlotTest, EqualPlotsMakeEqualFiles) {
   EXPECT_THAT(text("one.svg"), HasSubstr("<svg"));
 }
 
+TEST(BoxPlotTest, PanelsThatAreComparedShareTheirScale) {
+  const TemporaryFolder folder;
+  BoxPlot plot = two_panels();
+  plot.panels[0].curves[0].values = {0.1, 70.0};
+  const auto drawn = [&](bool same_scale) {
+    plot.same_scale = same_scale;
+    EXPECT_TRUE(write_box_plot_svg(folder / "plot.svg", plot));
+    return io::read_text_file(folder / "plot.svg", std::size_t{1} << 24U)->size();
+  };
+  // Its own scale would show the second panel's dots above 0.9 as far as they reach.
+  EXPECT_NE(drawn(true), drawn(false));
+}
+
 TEST(BoxPlotTest, PanelsWithoutAnythingHaveAxes) {
   const TemporaryFolder folder;
   BoxPlot plot;

@@ -44,7 +44,23 @@ Frame frame_of(const BoxPanel& panel, double left, double top) {
   return frame;
 }
 
-void draw_axes(cairo_t* cr, const Frame& frame, const BoxPanel& panel) {
+/// Where each panel is, in order.
+std::vector<Frame> frames_of(const BoxPlot& plot, std::size_t columns) {
+  std::vector<Frame> frames;
+  double highest = 0.0;
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    const double left = kLeft + static_cast<double>(i % columns) * (kPanelWidth + kGapX);
+    const double top = kTop + static_cast<double>(i / columns) * (kPanelHeight + kGapY);
+    frames.push_back(frame_of(plot.panels[i], left, top));
+    highest = std::max(highest, frames.back().high);
+  }
+  if (plot.same_scale) {
+    for (Frame& frame : frames) frame.high = highest;
+  }
+  return frames;
+}
+
+void draw_axes(cairo_t* cr, const Frame& frame, const BoxPanel& panel, const std::string& y_axis) {
   const std::vector<double> ticks = round_ticks(0.0, frame.high, 4);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
   for (const double tick : ticks) {
@@ -71,6 +87,7 @@ void draw_axes(cairo_t* cr, const Frame& frame, const BoxPanel& panel) {
   outline_rectangle(cr, frame.left, frame.top, kPanelWidth, kPanelHeight);
   set_colour(cr, kInk);
   draw_text(cr, frame.left, frame.top - 8.0, panel.title, kTextSize, Align::kLeft, true);
+  draw_text(cr, frame.left - 6.0, frame.top - 8.0, y_axis, kSmallTextSize, Align::kRight);
 }
 
 void draw_box(cairo_t* cr, const Frame& frame, const PlotBox& box, double middle, double width) {
@@ -104,8 +121,8 @@ void draw_box(cairo_t* cr, const Frame& frame, const PlotBox& box, double middle
   level(box.median, half);
 }
 
-void draw_panel(cairo_t* cr, const Frame& frame, const BoxPanel& panel) {
-  draw_axes(cr, frame, panel);
+void draw_panel(cairo_t* cr, const Frame& frame, const BoxPanel& panel, const std::string& y_axis) {
+  draw_axes(cr, frame, panel, y_axis);
   const double share = 0.8 / static_cast<double>(std::max<std::size_t>(panel.series.size(), 1));
   for (std::size_t s = 0; s < panel.series.size(); ++s) {
     const double offset = -0.4 + share * (static_cast<double>(s) + 0.5);
@@ -158,14 +175,12 @@ Status write_box_plot_svg(const std::filesystem::path& path, const BoxPlot& plot
   return write_svg(path, size, [&](cairo_t* cr) {
     set_colour(cr, kInk);
     draw_text(cr, kLeft, 30.0, plot.title, kTitleSize, Align::kLeft, true);
-    draw_text(cr, 8.0, 76.0, plot.y_axis, kSmallTextSize);
     draw_text(
         cr, kLeft + kPanelWidth, size.height - 10.0, plot.x_axis, kSmallTextSize, Align::kRight);
     draw_legend(cr, plot);
-    for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-      const double left = kLeft + static_cast<double>(i % columns) * (kPanelWidth + kGapX);
-      const double top = kTop + static_cast<double>(i / columns) * (kPanelHeight + kGapY);
-      draw_panel(cr, frame_of(plot.panels[i], left, top), plot.panels[i]);
+    const std::vector<Frame> frames = frames_of(plot, columns);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      draw_panel(cr, frames[i], plot.panels[i], plot.y_axis);
     }
   });
 }

@@ -42,7 +42,8 @@ struct BoxPanel {
 struct BoxPlot {
   std::string title = {};
   std::string x_axis = {};  ///< "image"
-  std::string y_axis = {};  ///< "error in m"; from 0, each panel to its highest whisker or curve
+  std::string y_axis = {};  ///< "m", at each y axis; from 0 to the highest whisker or curve
+  bool same_scale = false;  ///< all panels to the highest of all, where they are to be compared
   std::vector<BoxPanel> panels = {};
   int panel_columns = 1;
 };
