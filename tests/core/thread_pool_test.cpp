@@ -4,12 +4,46 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 namespace semview {
 namespace {
+
+/// No thread can be made while it lives: none gets a stack of that size.
+class NoNewThreads {
+ public:
+  NoNewThreads() {
+    pthread_getattr_default_np(&before_);
+    pthread_attr_t huge;
+    pthread_attr_init(&huge);
+    pthread_attr_setstacksize(&huge, std::size_t{1} << 50U);
+    pthread_setattr_default_np(&huge);
+    pthread_attr_destroy(&huge);
+  }
+  ~NoNewThreads() {
+    pthread_setattr_default_np(&before_);
+    pthread_attr_destroy(&before_);
+  }
+
+ private:
+  pthread_attr_t before_;
+};
+
+TEST(ThreadPoolStartTest, WithoutNewThreadsTheCallerDoesTheWorkAndALineSaysSo) {
+  ::testing::internal::CaptureStderr();
+  const NoNewThreads none;
+  ThreadPool pool(4);
+  EXPECT_EQ(pool.threads(), 1U);
+  std::atomic<int> visits{0};
+  pool.parallel_for(10, 1, [&](std::size_t, std::size_t) { ++visits; });
+  EXPECT_EQ(visits, 10);
+  const std::string said = ::testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("of 4 threads only 1 could be made: "), std::string::npos) << said;
+}
 
 class ThreadPoolTest : public ::testing::TestWithParam<std::size_t> {};
 

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <string>
+#include <system_error>
 
 #include "semview/core/check.hpp"
+#include "semview/core/log.hpp"
 
 namespace semview {
 namespace {
@@ -51,7 +54,12 @@ class Loop {
 
 ThreadPool::ThreadPool(std::size_t threads) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  for (std::size_t i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  try {
+    for (std::size_t i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  } catch (const std::system_error& error) {
+    log_warning("of " + std::to_string(threads) + " threads only " +
+                std::to_string(workers_.size() + 1) + " could be made: " + error.code().message());
+  }
 }
 
 ThreadPool::~ThreadPool() {

@@ -18,7 +18,7 @@ namespace semview {
 class ThreadPool {
  public:
   /// `threads` counts the caller of `parallel_for` as one: 1 makes no thread at all and runs
-  /// everything in the caller; 0 takes the number of cores.
+  /// everything in the caller; 0 takes the number of cores. If fewer can be made, a line says so.
   explicit ThreadPool(std::size_t threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
