@@ -30,12 +30,12 @@ std::vector<CellIndex> hall() {
 /// A robot that goes round in the hall, until somebody carries it away.
 class Walk {
  public:
-  explicit Walk(const LocalizerConfig& config, std::size_t particles = 400)
+  explicit Walk(const LocalizerConfig& config, std::size_t particles = 400, std::uint64_t seed = 3)
       : localizer_(config,
                    source_,
                    std::make_shared<OdometryMotionModel>(OdometryMotionConfig{}),
-                   first(particles),
-                   3) {
+                   first(particles, seed),
+                   seed) {
     source_.reach_m = 6.0;
     localizer_.know_free_cells(hall());
   }
@@ -58,8 +58,8 @@ class Walk {
   MapAffine drawn;  ///< what the true steps look like in the map
 
  private:
-  static localization::ParticleSet first(std::size_t count) {
-    Rng rng(3, "initialization");
+  static localization::ParticleSet first(std::size_t count, std::uint64_t seed) {
+    Rng rng(seed, "initialization");
     return localization::gaussian_particles({0.0, 0.0, 0.0}, 0.2, 0.1, count, rng);
   }
 
@@ -143,6 +143,32 @@ TEST(LocalizerBeyondTest, ADistortedDrawingIsEstimatedFromTheWayThroughIt) {
   EXPECT_LT(walk.error_m(report), 0.3);
   Walk exact({});
   EXPECT_FALSE(exact.step().affine);
+}
+
+TEST(LocalizerBeyondTest, TheDistortionsSigmaCoversItsError) {
+  LocalizerConfig config;
+  config.filter.affine = localization::AffineStateConfig{};
+  int within_two = 0;
+  int within_four = 0;
+  constexpr int kSeeds = 8;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Walk walk(config, 2000, static_cast<std::uint64_t>(seed));
+    walk.drawn = {.a = 1.2, .b = 0.83, .k = 0.0};
+    walk.source().reach_m = 2.0;
+    FrameReport report;
+    for (int i = 0; i < 40; ++i) report = walk.step();
+    ASSERT_TRUE(report.affine);
+    const localization::AffineEstimate& found = *report.affine;
+    for (const double sigmas : {(found.mean.a - walk.drawn.a) / found.a_sigma,
+                                (found.mean.b - walk.drawn.b) / found.b_sigma,
+                                (found.mean.k - walk.drawn.k) / found.k_sigma}) {
+      within_two += std::abs(sigmas) <= 2.0 ? 1 : 0;
+      within_four += std::abs(sigmas) <= 4.0 ? 1 : 0;
+    }
+  }
+  // Of normal errors 95 % lie within two; particles of one ancestry are a little too sure.
+  EXPECT_GE(within_two, 3 * kSeeds * 3 / 4);
+  EXPECT_EQ(within_four, 3 * kSeeds);
 }
 
 TEST(LocalizerBeyondTest, TheRefinedEstimateIsTheTopOfTheSimilarity) {
