@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "picture_set.hpp"
+#include "semview/core/log.hpp"
 #include "semview/io/output_path.hpp"
 #include "semview/io/run_log.hpp"
 #include "semview/io/text_file.hpp"
@@ -34,13 +35,17 @@ struct Options {
   bool json = false;
 };
 
+/// Of observations from where the map has no view: a robot's drive through its own map has none.
+constexpr double kOddShare = 0.05;
+
 /// Observations beside what the map shows from their poses.
 class Lesson {
  public:
   Lesson(const service::Site& site, const similarity::WeightLearnerConfig& config)
       : site_(site), config_(config) {}
 
-  Status add(const Observation& observation, const Pose2& map_from_robot) {
+  /// @param name  what the observation is called if the map has no view from its pose
+  Status add(const Observation& observation, const Pose2& map_from_robot, const std::string& name) {
     if (!learner_) {
       classes_ = observation.classes;
       learner_.emplace(config_, classes_, site_.map().classes, site_.profile().camera);
@@ -53,7 +58,8 @@ class Lesson {
     const Pose2 eye = map_from_robot * observation.base_from_eye;
     const auto cell = PoseGrid::cell(eye.x_m, eye.y_m);
     if (!cell || !site_.cells().has_eye(*cell)) {
-      ++skipped_;
+      if (skipped_++ == 0)
+        first_skipped_ = fmt::format("{} at ({:.2f}, {:.2f})", name, eye.x_m, eye.y_m);
       return {};
     }
     raycast::PanoramaRequest request;
@@ -67,8 +73,23 @@ class Lesson {
   }
 
   Result<similarity::WeightMatrix> matrix() const {
-    if (learner_) return learner_->matrix();
-    return fail(ErrorCode::kFailedPrecondition, "no observations to learn from");
+    if (used_ > 0) return learner_->matrix();
+    if (skipped_ == 0) return fail(ErrorCode::kFailedPrecondition, "no observations to learn from");
+    return fail(ErrorCode::kFailedPrecondition,
+                fmt::format("nothing to learn from: {}; expected the map that they were made in",
+                            skipped_text()));
+  }
+
+  /// How many observations the map cannot answer for, and the first of them; empty if there are
+  /// none.
+  std::string skipped_text() const {
+    if (skipped_ == 0) return "";
+    return fmt::format(
+        "{} of {} observations stand off map {} or where it has no eye, the first {}",
+        skipped_,
+        used_ + skipped_,
+        site_.id(),
+        first_skipped_);
   }
   std::size_t used() const { return used_; }
   std::size_t skipped() const { return skipped_; }  ///< from inside walls or outside of the map
@@ -81,6 +102,7 @@ class Lesson {
   std::optional<similarity::WeightLearner> learner_;
   std::size_t used_ = 0;
   std::size_t skipped_ = 0;
+  std::string first_skipped_;
 };
 
 Status learn_from_log(const std::string& folder, const PanoramaCamera& profile, Lesson& lesson) {
@@ -96,7 +118,8 @@ Status learn_from_log(const std::string& folder, const PanoramaCamera& profile, 
     SEMVIEW_TRY(const Observation observation, io::read_frame(log, i, profile));
     const auto pose = io::interpolate(*log.groundtruth, observation.stamp_s);
     if (!pose) continue;  // before the first or after the last of them
-    if (Status added = lesson.add(observation, *pose); !added) {
+    Status added = lesson.add(observation, *pose, fmt::format("{}, frame {}", folder, i + 1));
+    if (!added) {
       return with_context(std::move(added), folder);
     }
   }
@@ -120,11 +143,17 @@ Status learn(const Options& options) {
     SEMVIEW_TRY(const std::vector<KnownPicture> pictures,
                 read_picture_list(options.list, site->cells(), site->profile().camera, nullptr));
     for (const KnownPicture& picture : pictures) {
-      Status added = lesson.add(picture.observation, picture.map_from_robot);
+      Status added = lesson.add(picture.observation,
+                                picture.map_from_robot,
+                                fmt::format("{}: {}", options.list, picture.name));
       if (!added) return with_context(std::move(added), picture.name);
     }
   }
   SEMVIEW_TRY(const similarity::WeightMatrix weights, lesson.matrix());
+  if (static_cast<double>(lesson.skipped()) >
+      kOddShare * static_cast<double>(lesson.used() + lesson.skipped())) {
+    log_warning(lesson.skipped_text() + ": is it the right map?");
+  }
   const std::string header = fmt::format(
       "# Logarithms of likelihood ratios, ln P(observed | map) - ln P(observed), learned by "
       "`semview "

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
@@ -23,6 +24,7 @@ struct Options {
   std::string weights;
   std::string output;
   bool all = false;
+  bool json = false;
 };
 
 std::string band_name(const similarity::WeightMatrix::Band& band) {
@@ -68,11 +70,36 @@ void print_bands(const similarity::WeightMatrix& weights, const std::vector<std:
   }
 }
 
+void print_json(const similarity::WeightMatrix& weights, const std::vector<std::size_t>& rows) {
+  using nlohmann::ordered_json;
+  ordered_json bands = ordered_json::array();
+  for (std::size_t b = 0; b < weights.bands().size(); ++b) {
+    ordered_json table = ordered_json::array();
+    for (const std::size_t row : rows) {
+      ordered_json line = ordered_json::array();
+      for (std::size_t j = 0; j < weights.map_names().size(); ++j) {
+        line.push_back(weights.weight(b, row, j));
+      }
+      table.push_back(std::move(line));
+    }
+    bands.push_back({{"elevation_min_deg", weights.bands()[b].elevation_min_deg},
+                     {"elevation_max_deg", weights.bands()[b].elevation_max_deg},
+                     {"weights", std::move(table)}});
+  }
+  ordered_json observed = ordered_json::array();
+  for (const std::size_t row : rows) observed.push_back(weights.observed_names()[row]);
+  const ordered_json json{
+      {"observed", std::move(observed)}, {"map", weights.map_names()}, {"bands", std::move(bands)}};
+  fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+}
+
 picture::MatrixPicture picture_of(const Options& options,
                                   const similarity::WeightMatrix& weights,
                                   const std::vector<std::size_t>& rows) {
   picture::MatrixPicture picture;
   picture.title = std::filesystem::path(options.weights).filename().string();
+  picture.row_axis = "observed";
+  picture.column_axis = "map";
   picture.columns.assign(weights.map_names().begin(), weights.map_names().end());
   for (const std::size_t row : rows) picture.rows.push_back(weights.observed_names()[row]);
   for (std::size_t b = 0; b < weights.bands().size(); ++b) {
@@ -94,9 +121,17 @@ Status show(const Options& options) {
   SEMVIEW_TRY(const similarity::WeightMatrix weights,
               similarity::read_weight_matrix(options.weights));
   const std::vector<std::size_t> rows = rows_of(weights, options.all);
-  print_bands(weights, rows);
-  if (options.output.empty()) return {};
-  return io::write_png(options.output, picture::draw_matrix(picture_of(options, weights, rows)));
+  // The file first: `| head` ends a program that prints.
+  if (!options.output.empty()) {
+    const RgbImage picture = picture::draw_matrix(picture_of(options, weights, rows));
+    SEMVIEW_TRY_STATUS(io::write_png(options.output, picture));
+  }
+  if (options.json) {
+    print_json(weights, rows);
+  } else {
+    print_bands(weights, rows);
+  }
+  return {};
 }
 
 }  // namespace
@@ -110,6 +145,7 @@ void add_weights_show(CLI::App& weights, int& exit_code) {
   verb->add_option("WEIGHTS", options->weights, "CSV file")->required();
   verb->add_option("-o,--output", options->output, "Picture to write")->type_name("FILE.png");
   verb->add_flag("--all", options->all, "Also the rows that say nothing");
+  verb->add_flag("--json", options->json, "Print the matrix as JSON: a table a band");
   verb->footer("Example: semview weights show learned.csv -o learned.png");
   verb->callback([options, &exit_code] { exit_code = report(show(*options)); });
 }
