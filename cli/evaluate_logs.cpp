@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview evaluate logs`.
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "estimates_option.hpp"
 #include "evaluate_verbs.hpp"
@@ -30,13 +28,15 @@
 #include "semview/service/shipped_weights.hpp"
 #include "site_options.hpp"
 #include "starts_option.hpp"
+#include "stop_signals.hpp"
+#include "summary_json.hpp"
 #include "verb.hpp"
+#include "waiting_line.hpp"
 #include "weights_option.hpp"
 
 namespace semview::cli {
 namespace {
 
-using nlohmann::ordered_json;
 using paper2017::Experiment;
 using paper2017::Start;
 
@@ -70,11 +70,6 @@ Result<paper2017::RecordingWeights> weights_of(const Options& options,
       paper2017::identity_of(hand.matrix), std::move(hand.matrix), std::move(learned)};
 }
 
-void show_progress(std::size_t done, std::size_t drives) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r\033[K[{}/{}]{}", done, drives, done < drives ? "" : "\n");
-}
-
 Result<Experiment> evaluate(const Options& options, const paper2017::RecordingsConfig& config) {
   SiteOptions site_options = options.site;
   site_options.map = options.map;
@@ -92,47 +87,19 @@ Result<Experiment> evaluate(const Options& options, const paper2017::RecordingsC
   }
   SEMVIEW_TRY(const paper2017::RecordingWeights weights,
               weights_of(options, read.observed, site->map()));
+  WaitingLine line = waiting_for_views(options.site.cache_directory);
+  say_when_stopped("stopped; of drives that were done nothing is kept");
   SEMVIEW_TRY(Experiment experiment,
-              paper2017::run_recordings(
-                  config, read.recordings, weights, site->views(), site->pool(), show_progress));
+              paper2017::run_recordings(config,
+                                        read.recordings,
+                                        weights,
+                                        site->views(),
+                                        site->pool(),
+                                        [&line](std::size_t done, std::size_t drives) {
+                                          line.show(done, drives, "drives");
+                                        }));
   paper2017::add_trials(foreign, experiment);
   return experiment;
-}
-
-ordered_json number(double value) {
-  return std::isnan(value) ? ordered_json() : ordered_json(value);
-}
-
-ordered_json as_json(const paper2017::Summary& summary) {
-  return {{"drives", summary.drives},
-          {"best_m", number(summary.best_m)},
-          {"estimate_m", number(summary.estimate_m)},
-          {"weighted_mean_m", number(summary.weighted_mean_m)},
-          {"particles_m", number(summary.mean_m)},
-          {"min_m", number(summary.min_m)},
-          {"odometry_m", number(summary.odometry_m)},
-          {"above_0.3_m", summary.above_0_3_m},
-          {"above_1_m", summary.above_1_m},
-          {"localized_from_image",
-           summary.localized_from ? ordered_json(*summary.localized_from) : ordered_json()},
-          {"localized_by_image_3", summary.localized_by_three},
-          {"never_localized", summary.never_localized}};
-}
-
-void print_json(const Options& options, const paper2017::Results& results) {
-  ordered_json rows = ordered_json::array();
-  for (const paper2017::Row& row : results.experiment().rows) {
-    for (const Start start : results.experiment().config.starts) {
-      for (const std::string& method : results.methods(start)) {
-        const auto summary = paper2017::summary_of(results, row.id, method, start);
-        if (!summary) continue;
-        ordered_json line{{"log", row.id}, {"start", paper2017::name(start)}, {"method", method}};
-        line.update(as_json(*summary));
-        rows.push_back(std::move(line));
-      }
-    }
-  }
-  fmt::print("{}\n", ordered_json{{"map", options.map}, {"rows", std::move(rows)}}.dump(2));
 }
 
 std::string tables(const paper2017::Results& results, bool each_image) {
@@ -142,14 +109,15 @@ std::string tables(const paper2017::Results& results, bool each_image) {
   };
   for (const Start start : results.experiment().config.starts) {
     const std::string_view how = paper2017::name(start);
-    section(fmt::format("Mean error in m, best (min), {} localization", how),
+    section(fmt::format("Mean error in m, {} localization", how),
             paper2017::fig3_table(results, start));
     section(fmt::format("Mean errors in m, shares, images until the error stays below {:g} m, {} "
                         "localization",
                         paper2017::kLocalizedWithin_m,
                         how),
             paper2017::summary_table(results, start));
-    section(fmt::format("Spread, {} localization", how), paper2017::spread_table(results, start));
+    section(fmt::format("Spread of the estimates' errors, {} localization", how),
+            paper2017::spread_table(results, start));
     section(fmt::format("One idea off at a time, {} localization", how),
             paper2017::ablation_table(results, start));
     if (each_image) {
@@ -192,13 +160,26 @@ Status write_results(const Options& options, const paper2017::Results& results, 
   return io::write_text_file(out / "report.md", page);
 }
 
+/// Tables of other settings are not written over: nobody could tell which they are of.
+Status check_holds_no_results(const std::filesystem::path& out) {
+  SEMVIEW_TRY_STATUS(io::check_output_folder(out));
+  for (const char* file : {"runs.csv", "report.md"}) {
+    if (!std::filesystem::exists(out / file)) continue;
+    return fail(Error{ErrorCode::kFailedPrecondition,
+                      fmt::format("{}: holds results already ({})", out.string(), file),
+                      "--out",
+                      "choose another --out, or take the old results away"});
+  }
+  return {};
+}
+
 Status run(const Options& options) {
   paper2017::RecordingsConfig config = options.config;
   if (!options.starts.empty()) {
     SEMVIEW_TRY(config.starts, parse_starts(options.starts));
   }
   SEMVIEW_TRY_STATUS(paper2017::validate(config));
-  if (!options.out.empty()) SEMVIEW_TRY_STATUS(io::check_output_folder(options.out));
+  if (!options.out.empty()) SEMVIEW_TRY_STATUS(check_holds_no_results(options.out));
   const TimePoint began = steady_clock().now();
   SEMVIEW_TRY(const Experiment experiment, evaluate(options, config));
   const std::chrono::duration<double> taken = steady_clock().now() - began;
@@ -209,7 +190,9 @@ Status run(const Options& options) {
     SEMVIEW_TRY_STATUS(write_results(options, results, taken.count()));
   }
   if (options.json) {
-    print_json(options, results);
+    const nlohmann::ordered_json json{{"map", options.map},
+                                      {"rows", summaries_json(results, "log")}};
+    fmt::print("{}\n", json.dump(2));
   } else {
     fmt::print("{}{}", settings_of(options, experiment), tables(results, false));
   }

@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "evaluate_verbs.hpp"
 #include "experiments/paper2017/guard.hpp"
@@ -27,6 +28,7 @@
 namespace semview::cli {
 namespace {
 
+using nlohmann::ordered_json;
 using paper2017::LostQuality;
 using paper2017::LostStop;
 
@@ -42,6 +44,7 @@ struct Options {
   std::size_t threads = 0;
   bool learn = false;
   std::string out = "lost_results";
+  bool json = false;
 };
 
 void print_model(const observation::LostModel& model) {
@@ -80,6 +83,24 @@ void print_quality(const std::string& title, const LostQuality& quality) {
   }
 }
 
+ordered_json as_json(const LostQuality& quality) {
+  ordered_json bins = ordered_json::array();
+  for (const paper2017::ReliabilityBin& bin : quality.bins) {
+    if (bin.stops == 0) continue;
+    bins.push_back({{"mean_probability", bin.mean_probability},
+                    {"lost_share", bin.lost_share},
+                    {"stops", bin.stops}});
+  }
+  return {{"stops", quality.stops},
+          {"lost", quality.lost},
+          {"calibration_error", quality.calibration_error},
+          {"kidnaps", quality.kidnaps},
+          {"flagged_within_two", quality.flagged},
+          {"false_alarms", quality.false_alarms},
+          {"good_stops", quality.good},
+          {"reliability", std::move(bins)}};
+}
+
 /// Training worlds teach, all others judge: a world that did both would judge itself.
 Result<std::vector<std::uint64_t>> worlds_of(const Options& options) {
   if (options.learn) return kTrainingWorlds;
@@ -97,6 +118,13 @@ Status check_noise(const std::vector<double>& levels) {
         "--noise"});
   }
   return {};
+}
+
+void print_json(const observation::LostModel& model, ordered_json all, ordered_json levels) {
+  const ordered_json json{{"model", {{"intercept", model.intercept}, {"weights", model.weights}}},
+                          {"all", std::move(all)},
+                          {"levels", std::move(levels)}};
+  fmt::print("{}\n", json.dump(2));
 }
 
 Status evaluate_lost(const Options& options) {
@@ -118,21 +146,27 @@ Status evaluate_lost(const Options& options) {
   SEMVIEW_TRY(const std::vector<LostStop> stops, paper2017::drive_all(settings, pool));
   const observation::LostModel model =
       options.learn ? paper2017::fit_lost_model(stops) : observation::learned_lost_model();
-  if (options.learn) print_model(model);
+  ordered_json levels = ordered_json::array();
+  if (options.learn && !options.json) print_model(model);
   for (const double level : settings.noise_levels) {
     std::vector<LostStop> of_level;
     std::ranges::copy_if(stops, std::back_inserter(of_level), [level](const LostStop& stop) {
       return stop.noise_level == level;
     });
-    print_quality(fmt::format("noise {:g}", level), paper2017::measure_quality(of_level, model));
+    const LostQuality quality = paper2017::measure_quality(of_level, model);
+    levels.push_back({{"noise", level}});
+    levels.back().update(as_json(quality));
+    if (!options.json) print_quality(fmt::format("noise {:g}", level), quality);
   }
   const LostQuality all = paper2017::measure_quality(stops, model);
-  print_quality("all", all);
+  if (!options.json) print_quality("all", all);
   SEMVIEW_TRY_STATUS(
       io::write_text_file(out / "lost_stops.csv", paper2017::lost_stops_csv(stops, model)));
-  return io::write_text_file(
+  SEMVIEW_TRY_STATUS(io::write_text_file(
       out / "reliability.svg",
-      paper2017::reliability_svg(all, options.learn ? "training worlds" : "Am I lost?"));
+      paper2017::reliability_svg(all, options.learn ? "training worlds" : "Am I lost?")));
+  if (options.json) print_json(model, as_json(all), std::move(levels));
+  return {};
 }
 
 }  // namespace
@@ -160,6 +194,7 @@ void add_evaluate_lost_verb(CLI::App& evaluate, int& exit_code) {
   verb->add_flag("--learn", options->learn, "Learn the model anew, on worlds 101 to 106")
       ->excludes(worlds);
   verb->add_option("-o,--out", options->out, "Folder for what is written")->capture_default_str();
+  verb->add_flag("--json", options->json, "Print JSON");
   verb->footer("Example: semview evaluate lost --worlds 1,2,3 -o lost");
   verb->callback([options, &exit_code] { exit_code = report(evaluate_lost(*options)); });
 }

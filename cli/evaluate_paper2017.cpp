@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "estimates_option.hpp"
@@ -24,6 +25,8 @@
 #include "semview/io/text_file.hpp"
 #include "site_options.hpp"
 #include "starts_option.hpp"
+#include "stop_signals.hpp"
+#include "summary_json.hpp"
 #include "threads_option.hpp"
 #include "verb.hpp"
 #include "world_list.hpp"
@@ -37,6 +40,7 @@ struct Options {
   std::vector<std::string> starts;
   std::string out = "paper2017_results";
   bool quick = false;
+  bool json = false;
   std::string export_to;
   std::vector<std::string> estimates;
 };
@@ -92,6 +96,20 @@ std::string command_of(const paper2017::ExperimentConfig& config) {
   return command;
 }
 
+/// An export holds rows on worlds, whatever would be run on them.
+Status check_only_exports(const CLI::App& verb) {
+  for (const char* option :
+       {"--runs", "--seed", "--methods", "--starts", "--resume", "--out", "--json"}) {
+    if (verb.count(option) == 0) continue;
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("{}: has no meaning with --export, which runs nothing; expected "
+                                  "--rows, --worlds, --engine, --threads or --quick",
+                                  option),
+                      option});
+  }
+  return {};
+}
+
 Status write_worlds(const paper2017::ExperimentConfig& config, const std::string& directory) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   SEMVIEW_TRY_STATUS(
@@ -130,8 +148,14 @@ Status write_foreign(const paper2017::Experiment& experiment, std::size_t first_
 
 Status run(const CLI::App& verb, const Options& options) {
   SEMVIEW_TRY(const paper2017::ExperimentConfig config, config_of(verb, options));
-  if (!options.export_to.empty()) return write_worlds(config, options.export_to);
+  if (!options.export_to.empty()) {
+    SEMVIEW_TRY_STATUS(check_only_exports(verb));
+    return write_worlds(config, options.export_to);
+  }
   SEMVIEW_TRY(const std::vector<paper2017::ForeignMethod> foreign, read_foreign(options, config));
+  say_when_stopped(fmt::format(
+      "stopped; rows on worlds that were done are kept in {}/units: go on with --resume",
+      options.out));
   const TimePoint began = steady_clock().now();
   SEMVIEW_TRY(paper2017::Experiment experiment, paper2017::run_experiment(config, show_progress));
   const std::chrono::duration<double> taken = steady_clock().now() - began;
@@ -146,7 +170,14 @@ Status run(const CLI::App& verb, const Options& options) {
   header.threads = config.threads > 0 ? config.threads : std::thread::hardware_concurrency();
   header.wall_s = taken.count();
   SEMVIEW_TRY(const std::string page, paper2017::write_report(results, header, config.out));
-  fmt::print("{}", page);
+  if (options.json) {
+    const nlohmann::ordered_json json{{"command", header.command},
+                                      {"commit", header.revision},
+                                      {"rows", summaries_json(results, "row")}};
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}", page);
+  }
   return {};
 }
 
@@ -184,6 +215,7 @@ void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
   verb->add_option("--out", options->out, "Folder of the results")->capture_default_str();
   verb->add_flag(
       "--quick", options->quick, "Four rows, 3 worlds, 3 runs, known start, in about two minutes");
+  verb->add_flag("--json", options->json, "Print a line a row, start and method as JSON");
   auto* estimates = add_estimates_option(*verb,
                                          options->estimates,
                                          "Add the trajectories of another program as a column: "
@@ -191,7 +223,7 @@ void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
   verb->add_option("--export",
                    options->export_to,
                    "Run nothing: write the rows and worlds as map bundles and run logs, and apart "
-                   "from them where the robot was")
+                   "from them where the robot was; takes --rows, --worlds and --quick")
       ->type_name("DIR")
       ->excludes(estimates);
   verb->footer("Example: semview evaluate paper2017 --quick --out quick");

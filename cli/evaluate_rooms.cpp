@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "evaluate_verbs.hpp"
 #include "semview/evaluation/room_plan.hpp"
@@ -19,12 +20,15 @@
 namespace semview::cli {
 namespace {
 
+using nlohmann::ordered_json;
+
 struct Options {
   std::string log;
   std::string true_rooms;
   std::string rooms;
   std::vector<std::string> estimates;
   bool start = false;
+  bool json = false;
 };
 
 /// Truth and estimate at the stamps that the ground truth covers.
@@ -73,6 +77,29 @@ bool share_a_name(const std::vector<evaluation::NamedRoom>& some,
   });
 }
 
+void print(const std::string& file, const evaluation::RoomScore& score) {
+  fmt::print("{}: in the right room {} of {} ({:.1f} %), {:.2f} m from its place there\n",
+             file,
+             score.right,
+             score.places,
+             100.0 * static_cast<double>(score.right) / static_cast<double>(score.places),
+             score.mean_error_m);
+  const bool in_order = score.found_order == score.true_order;
+  fmt::print("  rooms in the right order: {}\n", in_order ? "yes" : "no");
+  fmt::print("  rooms visited: {}\n", fmt::join(score.true_order, ", "));
+  if (!in_order) fmt::print("  rooms found:   {}\n", fmt::join(score.found_order, ", "));
+}
+
+ordered_json as_json(const std::string& file, const evaluation::RoomScore& score) {
+  return {{"estimate", file},
+          {"poses", score.places},
+          {"in_right_room", score.right},
+          {"mean_error_m", score.mean_error_m},
+          {"in_right_order", score.found_order == score.true_order},
+          {"rooms_visited", score.true_order},
+          {"rooms_found", score.found_order}};
+}
+
 Status evaluate_rooms(const Options& options) {
   SEMVIEW_TRY(const auto true_rooms, evaluation::read_rooms(options.true_rooms));
   SEMVIEW_TRY(const auto rooms, evaluation::read_rooms(options.rooms));
@@ -88,6 +115,7 @@ Status evaluate_rooms(const Options& options) {
                 fmt::format("{}: has no groundtruth.txt to compare with", options.log));
   }
   if (options.start) return print_start(options, true_rooms, rooms, log);
+  ordered_json rows = ordered_json::array();
   for (const std::string& file : options.estimates) {
     SEMVIEW_TRY(const std::vector<io::StampedPose2> estimate, io::read_tum(file));
     const Places places = paired(*log.groundtruth, estimate);
@@ -97,19 +125,13 @@ Status evaluate_rooms(const Options& options) {
       return fail(ErrorCode::kOutOfRange,
                   fmt::format("{}: no pose lies in a room of {}", file, options.true_rooms));
     }
-    fmt::print("{}: in the right room {} of {} ({:.1f} %), {:.2f} m from its place there\n",
-               file,
-               score.right,
-               score.places,
-               100.0 * static_cast<double>(score.right) / static_cast<double>(score.places),
-               score.mean_error_m);
-    fmt::print("  rooms {}: {}\n",
-               score.found_order == score.true_order ? "in their order" : "visited",
-               fmt::join(score.true_order, ", "));
-    if (score.found_order != score.true_order) {
-      fmt::print("  rooms found: {}\n", fmt::join(score.found_order, ", "));
+    if (options.json) {
+      rows.push_back(as_json(file, score));
+    } else {
+      print(file, score);
     }
   }
+  if (options.json) fmt::print("{}\n", ordered_json{{"estimates", std::move(rows)}}.dump(2));
   return {};
 }
 
@@ -134,6 +156,7 @@ void add_evaluate_rooms_verb(CLI::App& evaluate, int& exit_code) {
                                "Instead: print where the log begins, in the sketch, as "
                                "X,Y,YAW_DEG for `localize --init`");
   start->excludes(estimates);
+  verb->add_flag("--json", options->json, "Print JSON")->excludes(start);
   verb->footer(
       "Example: semview evaluate rooms --log run1 --true-rooms building.csv --rooms sketch.csv "
       "run1/est.tum");

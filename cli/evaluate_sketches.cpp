@@ -9,14 +9,17 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "evaluate_verbs.hpp"
 #include "experiments/paper2017/sketch_drives.hpp"
 #include "experiments/paper2017/sketch_picture.hpp"
+#include "experiments/paper2017/sketch_records.hpp"
 #include "experiments/paper2017/sketch_report.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/text_file.hpp"
 #include "site_options.hpp"
+#include "stop_signals.hpp"
 #include "threads_option.hpp"
 #include "verb.hpp"
 
@@ -31,6 +34,7 @@ struct Options {
   SketchSettings settings;
   std::vector<std::string> starts{"local", "global"};
   std::string out = "sketch_results";
+  bool json = false;
 };
 
 /// The last method's first drive on the first sketch of each world.
@@ -51,6 +55,24 @@ Status draw_pictures(const SketchSettings& settings, const std::vector<SketchDri
   return {};
 }
 
+void print_json(const std::vector<paper2017::SketchSummary>& summaries) {
+  using nlohmann::ordered_json;
+  ordered_json rows = ordered_json::array();
+  for (const paper2017::SketchSummary& one : summaries) {
+    rows.push_back({{"method", one.method},
+                    {"start", paper2017::name(one.start)},
+                    {"drives", one.drives},
+                    {"stops", one.stops},
+                    {"right_room", one.right_room_share},
+                    {"right_room_from_image_4", one.late_share},
+                    {"right_room_in_worst_world", one.worst_world_share},
+                    {"rooms_in_order", one.right_order_share},
+                    {"mean_error_m", one.mean_error_m},
+                    {"median_error_m", one.median_error_m}});
+  }
+  fmt::print("{}\n", ordered_json{{"rows", std::move(rows)}}.dump(2));
+}
+
 Status evaluate_sketches(const Options& options) {
   SketchSettings settings = options.settings;
   settings.out = options.out;
@@ -58,16 +80,25 @@ Status evaluate_sketches(const Options& options) {
   for (const std::string& start : options.starts) {
     settings.starts.push_back(start == "local" ? Start::kLocal : Start::kGlobal);
   }
+  say_when_stopped(
+      fmt::format("stopped; sketches that were done are kept in {}: go on with --resume",
+                  (settings.out / "units").string()));
   SEMVIEW_TRY(const std::vector<SketchDrive> drives,
               paper2017::drive_sketches(settings, [](std::size_t done, std::size_t all) {
                 fmt::print(stderr, "[{}/{}] sketches\n", done, all);
               }));
-  const std::string table = paper2017::to_markdown(paper2017::summarize(drives));
-  fmt::print("{}", table);
+  const std::vector<paper2017::SketchSummary> summaries = paper2017::summarize(drives);
+  const std::string table = paper2017::to_markdown(summaries);
   SEMVIEW_TRY_STATUS(io::write_text_file(settings.out / "sketches.md", table));
   SEMVIEW_TRY_STATUS(
       io::write_text_file(settings.out / "sketch_stops.csv", paper2017::to_csv(drives)));
-  return draw_pictures(settings, drives);
+  SEMVIEW_TRY_STATUS(draw_pictures(settings, drives));
+  if (options.json) {
+    print_json(summaries);
+  } else {
+    fmt::print("{}", table);
+  }
+  return {};
 }
 
 }  // namespace
@@ -98,7 +129,9 @@ void add_evaluate_sketches_verb(CLI::App& evaluate, int& exit_code) {
       ->check(CLI::IsMember({"local", "global"}))
       ->delimiter(',');
   add_engine_option(*verb, settings.engine);
+  verb->add_flag("--resume", settings.resume, "Keep what is finished in --out");
   verb->add_option("-o,--out", options->out, "Folder of the results")->capture_default_str();
+  verb->add_flag("--json", options->json, "Print the table as JSON");
   verb->footer("Example: semview evaluate sketches --worlds 1,2 --runs 1 -o sketches");
   verb->callback([options, &exit_code] { exit_code = report(evaluate_sketches(*options)); });
 }

@@ -24,6 +24,7 @@
 #include "semview/picture/heat_picture.hpp"
 #include "semview/places/place_search.hpp"
 #include "verb.hpp"
+#include "waiting_line.hpp"
 #include "weights_option.hpp"
 
 namespace semview::cli {
@@ -128,8 +129,15 @@ Status locate(const Options& options) {
               place_weights(options.weights, observed, floors[0]->map()));
   places::PlaceSearchConfig config;
   config.most_places = options.top;
+  WaitingLine line = waiting_for_views(options.floors.site.cache_directory);
   SEMVIEW_TRY(const places::PlaceSearch search,
-              places::find_places(floors, observation, weights, config));
+              places::find_places(floors,
+                                  observation,
+                                  weights,
+                                  config,
+                                  [&](std::size_t done, std::size_t all, std::string_view unit) {
+                                    line.show(done, all, unit);
+                                  }));
   if (search.places.empty()) {
     return fail(ErrorCode::kFailedPrecondition,
                 fmt::format("map {}: no free cell has a view to compare with", floors[0]->id()));

@@ -29,11 +29,18 @@ struct Options {
   double shear = 0.0;
   std::string affine;
   map::LoadOptions load;
+  bool json = false;
 };
 
 Status write(const Options& options, const MapAffine& affine) {
   SEMVIEW_TRY_STATUS(io::check_output_folder(options.output));
   SEMVIEW_TRY_STATUS(map::write_distorted(options.map, affine, options.output, options.load));
+  if (options.json) {
+    const nlohmann::ordered_json json{{"map", options.output},
+                                      {"moved_by", {{affine.a, 0.0}, {affine.k, affine.b}}}};
+    fmt::print("{}\n", json.dump(2));
+    return {};
+  }
   fmt::print("{}: written, every point moved by [[{:g}, 0], [{:g}, {:g}]]\n",
              options.output,
              affine.a,
@@ -106,6 +113,7 @@ void add_common(CLI::App& verb, Options& options) {
   verb.add_option("MAP", options.map, "Map folder or map.yaml of a drawn plan")->required();
   verb.add_option("-o,--output", options.output, "Folder to make")->type_name("DIR")->required();
   add_nearest_colour(verb, options.load);
+  verb.add_flag("--json", options.json, "Print JSON: the folder and how points were moved");
 }
 
 }  // namespace

@@ -259,8 +259,12 @@ void add_score_verb(CLI::App& app, int& exit_code) {
   add_server_option(*verb, options->server, "score");
   add_observation_option(*verb, options->observation);
   add_weights_option(*verb, options->weights)->required();
-  verb->add_option("--pose", options->pose, "One pose")->type_name("X,Y,YAW_DEG");
-  verb->add_option("--poses", options->poses, "Poses, one a line: x,y,yaw_deg")
+  verb->add_option("--pose",
+                   options->pose,
+                   "One pose of the eye; where the camera is not over the robot's middle, that is "
+                   "not the robot's")
+      ->type_name("X,Y,YAW_DEG");
+  verb->add_option("--poses", options->poses, "Poses of the eye, one a line: x,y,yaw_deg")
       ->type_name("FILE.csv");
   verb->add_flag("--compass", options->compass, "Try all 120 headings, report the best");
   verb->add_flag(

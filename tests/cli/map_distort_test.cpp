@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "support/paths.hpp"
 #include "support/semview_runs.hpp"
@@ -31,6 +32,24 @@ TEST_F(MapRectifyTest, TakesWhatTheLastFrameSaysOfTheMap) {
       << errors_;
   EXPECT_THAT(output_, HasSubstr("[[0.8, 0], [0, 1.25]]"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "straight/map.yaml"));
+}
+
+TEST_F(MapRectifyTest, DistortTellsScriptsHowPointsMove) {
+  ASSERT_EQ(run({"map",
+                 "distort",
+                 kMap,
+                 "--scale",
+                 "1.5,0.5",
+                 "--shear",
+                 "0.25",
+                 "-o",
+                 file("sketch"),
+                 "--json"}),
+            0)
+      << errors_;
+  const auto json = nlohmann::json::parse(output_);
+  EXPECT_EQ(json["map"], file("sketch"));
+  EXPECT_EQ(json["moved_by"], nlohmann::json::parse("[[1.5, 0.0], [0.25, 0.5]]"));
 }
 
 TEST_F(MapRectifyTest, OtherJsonIsRefusedInOneLine) {

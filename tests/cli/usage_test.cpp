@@ -146,6 +146,18 @@ TEST_F(UsageTest, WhatIsNamedTwiceIsRefused) {
   expect("logs", "--starts", "local,local");
 }
 
+TEST_F(UsageTest, AnExportTakesNoOptionsOfWhatItDoesNotRun) {
+  for (const Arguments& more : {Arguments{"--methods", "ours"},
+                                Arguments{"--starts", "local"},
+                                Arguments{"--runs", "3"},
+                                Arguments{"--resume"}}) {
+    Arguments all{"evaluate", "paper2017", "--export", file("exported"), "--quick"};
+    all.insert(all.end(), more.begin(), more.end());
+    expect_usage(all, more.front() + ": has no meaning with --export");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "exported"));
+  }
+}
+
 TEST_F(UsageTest, RoomsOfNoCommonNameAreRefused) {
   const std::string header = "room,min_x_m,min_y_m,max_x_m,max_y_m\n";
   std::ofstream(folder_ / "true.csv") << header << "hall,0,0,1,1\n";

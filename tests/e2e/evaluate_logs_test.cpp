@@ -99,11 +99,23 @@ TEST_F(EvaluateLogsTest, ThreadsChangeNoByteAndOdometryIsItsOwnEstimate) {
 TEST_F(EvaluateLogsTest, PrintsTablesOfEachLogAndOfAll) {
   const Outcome outcome = evaluate("--methods identity,weighted --runs 1 --starts local,global");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("| row | identity | weighted | odometry |\n"));
-  EXPECT_THAT(outcome.output, HasSubstr("best (min), global localization"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("| row | identity: best (min) | weighted: best (min) | odometry |\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("Mean error in m, global localization"));
   EXPECT_THAT(outcome.output, HasSubstr("| drive2 |"));
   EXPECT_THAT(outcome.output, HasSubstr("| all logs |"));
   EXPECT_THAT(outcome.output, HasSubstr("median over logs"));
+}
+
+TEST_F(EvaluateLogsTest, TablesOfEarlierRunsAreNotWrittenOver) {
+  const std::string options = "--methods weighted --runs 1 --out " + file("out");
+  const Outcome first = evaluate(options);
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  const std::string kept = file_bytes(file("out/runs.csv"));
+  const Outcome second = evaluate(options + " --seed 2");
+  EXPECT_EQ(second.exit_code, 1) << second.output;
+  EXPECT_THAT(second.output, HasSubstr("out: holds results already (runs.csv)"));
+  EXPECT_EQ(file_bytes(file("out/runs.csv")), kept);
 }
 
 TEST_F(EvaluateLogsTest, LogsMayStandBehindLists) {
@@ -111,7 +123,7 @@ TEST_F(EvaluateLogsTest, LogsMayStandBehindLists) {
       run_semview("evaluate logs --columns 120 --rows 30 --runs 1 --map " + kMap +
                   " --starts local --methods weighted " + file("drive1"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("| row | weighted | odometry |\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("| row | weighted: best (min) | odometry |\n"));
 }
 
 TEST_F(EvaluateLogsTest, WhatCannotBeComparedIsRefusedInALine) {

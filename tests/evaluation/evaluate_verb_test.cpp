@@ -86,6 +86,33 @@ TEST_F(EvaluateRunTest, WithoutGroundTruthItSaysSo) {
   EXPECT_THAT(outcome.output, HasSubstr("has no groundtruth.txt"));
 }
 
+TEST_F(EvaluateRunTest, RoomsAreJudgedByPlaceAndByOrder) {
+  // The truth goes from x = 1 to 5 m; the estimate's first two poses lie at y = 3 m.
+  const std::string header = "room,min_x_m,min_y_m,max_x_m,max_y_m\n";
+  const auto building = folder_.write("building.csv", header + "hall,0,0,3.5,9\nlab,3.5,0,9,9\n");
+  const auto sketch =
+      folder_.write("sketch.csv", header + "hall,0,0,3.5,2.5\nlab,3.5,0,9,9\nattic,0,2.5,3.5,9\n");
+  const std::string verb = "evaluate rooms --log " + (folder_ / "log").string() + " " +
+                           (folder_ / "est.tum").string() + " --true-rooms " + building.string();
+  const Outcome same = run_semview(verb + " --rooms " + building.string());
+  ASSERT_EQ(same.exit_code, 0) << same.output;
+  EXPECT_THAT(same.output, HasSubstr("in the right room 5 of 5 (100.0 %)"));
+  EXPECT_THAT(same.output, HasSubstr("rooms in the right order: yes"));
+
+  const Outcome other = run_semview(verb + " --rooms " + sketch.string());
+  ASSERT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("rooms in the right order: no"));
+  EXPECT_THAT(other.output, HasSubstr("rooms found:   attic, hall, lab"));
+
+  const Outcome json = run_semview(verb + " --rooms " + sketch.string() + " --json");
+  ASSERT_EQ(json.exit_code, 0) << json.output;
+  const auto result = nlohmann::json::parse(json.output)["estimates"][0];
+  EXPECT_EQ(result["in_right_room"], 3);
+  EXPECT_EQ(result["poses"], 5);
+  EXPECT_EQ(result["in_right_order"], false);
+  EXPECT_EQ(result["rooms_visited"], (std::vector<std::string>{"hall", "lab"}));
+}
+
 TEST(EvaluateUsageTest, MissingOptionsAreUsageErrors) {
   EXPECT_EQ(run_semview("evaluate run").exit_code, 2);
   EXPECT_EQ(run_semview("evaluate").exit_code, 2);

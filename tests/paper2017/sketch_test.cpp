@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/paper2017/sketch_drives.hpp"
+#include "experiments/paper2017/sketch_records.hpp"
 #include "experiments/paper2017/sketch_report.hpp"
 
 namespace semview::paper2017 {
@@ -113,6 +114,25 @@ TEST(SketchReportTest, SharesAreOfStopsAndOfDrives) {
   EXPECT_DOUBLE_EQ(summaries[0].right_order_share, 0.5);
   EXPECT_DOUBLE_EQ(summaries[0].mean_error_m, 1.5);
   EXPECT_NE(to_csv(drives).find("\n1,1,some,local,1,4,1,2,"), std::string::npos);
+}
+
+TEST(SketchRecordsTest, CsvIsReadBackAsItWas) {
+  const std::vector<SketchDrive> drives{drive_through({0, 0, 1}, {0, kNoRoom, 1}),
+                                        drive_through({2, 1}, {2, 1})};
+  std::string text = to_csv(std::span(drives).first(1));
+  SketchDrive other = drives[1];
+  other.run = 2;
+  text += to_csv({&other, 1});
+  const auto read = parse_sketch_drives(text, "sketch_stops.csv");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->size(), 2U);
+  EXPECT_EQ(read->at(0).stops[1].found_room, kNoRoom);
+  EXPECT_EQ(to_csv(std::span(*read).first(1)), to_csv(std::span(drives).first(1)));
+  EXPECT_EQ(to_csv({&read->at(1), 1}), to_csv({&other, 1}));
+
+  const auto damaged = parse_sketch_drives(text + "1,1,some,sideways\n", "sketch_stops.csv");
+  ASSERT_FALSE(damaged);
+  EXPECT_EQ(damaged.error().message.rfind("sketch_stops.csv:8:", 0), 0U) << damaged.error().message;
 }
 
 TEST(SketchDrivesTest, BadOptionsAreRefusedByName) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,7 +29,8 @@ struct Candidate {
 Result<DensePosterior> posterior_of(const service::Site& floor,
                                     const Observation& observation,
                                     const similarity::WeightMatrix& weights,
-                                    double kappa) {
+                                    double kappa,
+                                    const observation::SearchProgress& progress) {
   similarity::SimilarityScoreSource source(
       floor.views(), floor.map().classes, weights, floor.pool());
   SEMVIEW_TRY_STATUS(source.set_observation(observation));
@@ -36,7 +38,7 @@ Result<DensePosterior> posterior_of(const service::Site& floor,
   weighting.transform = observation::WeightTransform::kExponential;
   weighting.kappa = kappa;
   // In terms of the eye: what stands on the robot is turned back at the end.
-  return DensePosterior::compute(source, weighting, floor.cells().free_cells(), {});
+  return DensePosterior::compute(source, weighting, floor.cells().free_cells(), {}, progress);
 }
 
 ExactView views_of(const service::Site& floor) {
@@ -117,7 +119,8 @@ Status validate(const PlaceSearchConfig& config) {
 Result<PlaceSearch> find_places(std::span<const std::shared_ptr<service::Site>> floors,
                                 const Observation& observation,
                                 const similarity::WeightMatrix& weights,
-                                const PlaceSearchConfig& config) {
+                                const PlaceSearchConfig& config,
+                                const PlaceProgress& progress) {
   SEMVIEW_CHECK(!floors.empty());
   SEMVIEW_TRY_STATUS(validate(config));
   PlaceSearch search;
@@ -125,7 +128,16 @@ Result<PlaceSearch> find_places(std::span<const std::shared_ptr<service::Site>> 
   std::vector<DensePosterior> posteriors;
   for (std::size_t f = 0; f < floors.size(); ++f) {
     SEMVIEW_TRY(DensePosterior posterior,
-                posterior_of(*floors[f], observation, weights, config.grid_kappa));
+                posterior_of(*floors[f],
+                             observation,
+                             weights,
+                             config.grid_kappa,
+                             [&](std::size_t done, std::size_t cells) {
+                               if (progress) {
+                                 progress(f * cells + done, floors.size() * cells, "cells");
+                               }
+                               return true;
+                             }));
     search.cells += posterior.cells().size();
     for (const observation::PosteriorMode& mode : posterior.modes(config.candidates)) {
       candidates.push_back(
@@ -141,10 +153,14 @@ Result<PlaceSearch> find_places(std::span<const std::shared_ptr<service::Site>> 
                                   config.columns));
   RefinementConfig refinement = config.refinement;
   refinement.finds_eye_height = refinement.finds_eye_height || floors.size() > 1;
+  std::mutex mutex;
+  std::size_t refined = 0;
   floors[0]->pool().parallel_for(candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       candidates[i].at =
           refine(candidates[i].at, scorer, views_of(*floors[candidates[i].floor]), refinement);
+      const std::lock_guard lock(mutex);
+      if (progress) progress(++refined, candidates.size(), "places");
     }
   });
   const std::vector<EyePlacement> found = distinct(candidates, config);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "semview/core/result.hpp"
@@ -55,6 +57,9 @@ struct PlaceSearch {
   std::optional<observation::DensePosterior> posterior;
 };
 
+/// (done, all, of what: "cells", and then "places" between them); by one thread at a time.
+using PlaceProgress = std::function<void(std::size_t, std::size_t, std::string_view)>;
+
 /// Compares an observation with the views of all free cells of one map at some eye heights, in all
 /// headings; then searches on from each of the strongest peaks off the grid, with exact views that
 /// are scored column by column (`ColumnScorer`).
@@ -62,10 +67,12 @@ struct PlaceSearch {
 /// @param floors  the same map at one or more eye heights, at least one, with one profile camera in
 ///                which `observation` is; with several the eye height is searched as well.
 /// @param weights  logarithms of likelihood ratios (`similarity::plan_likelihood_weights`, learned)
+/// @param progress  may be empty
 /// @errors those of `validate`, `ScoreSource::set_observation` and `DensePosterior::compute`.
 Result<PlaceSearch> find_places(std::span<const std::shared_ptr<service::Site>> floors,
                                 const Observation& observation,
                                 const similarity::WeightMatrix& weights,
-                                const PlaceSearchConfig& config);
+                                const PlaceSearchConfig& config,
+                                const PlaceProgress& progress = {});
 
 }  // namespace semview::places
