@@ -114,7 +114,7 @@ TEST_F(ObserveVerbTest, ARigOfSeveralImagesBecomesOnePanorama) {
                  file("obs")}),
             0)
       << errors_;
-  EXPECT_THAT(output_, HasSubstr("180 deg wide"));
+  EXPECT_THAT(output_, HasSubstr("180 deg of it seen"));
   EXPECT_THAT(errors_, HasSubstr("labelling picture 2 of 2"));
   const Observation seen = observation();
   EXPECT_EQ(seen.base_from_eye, (Pose2{0.2, 0.0, 0.0}));
