@@ -63,6 +63,10 @@ TEST_F(LocalizeEndTest, ADistortionTakesCombinedHeadingsAndMoreParticlesUnlessTo
                   init,
                   "-o",
                   file("est.tum"),
+                  "--columns",  // coarse: each of 2000 particles has a view of its own cast
+                  "120",
+                  "--rows",
+                  "30",
                   "--estimate-map-affine"};
     all.insert(all.end(), more.begin(), more.end());
     EXPECT_EQ(run(all), 0) << errors_;
