@@ -75,7 +75,7 @@ TEST_F(EvaluateLogsTest, ThreadsChangeNoByteAndOdometryIsItsOwnEstimate) {
   EXPECT_EQ(file_bytes(file("one/runs.csv")), file_bytes(file("two/runs.csv")));
   EXPECT_EQ(one.output, two.output);
 
-  const auto rows = nlohmann::json::parse(one.output.substr(one.output.find('{')))["rows"];
+  const auto rows = nlohmann::json::parse(one.answer)["rows"];
   ASSERT_EQ(rows.size(), 12U);  // two logs and all of them, four methods
   for (const auto& row : rows) {
     const bool all = row["log"] == "all logs";

@@ -40,7 +40,7 @@ class FusedMapTest : public ::testing::Test {
 };
 
 TEST_F(FusedMapTest, InfoAndCheckKnowTheVolume) {
-  const auto info = nlohmann::json::parse(succeed("map info --json " + volume()).output);
+  const auto info = nlohmann::json::parse(succeed("map info --json " + volume()).answer);
   EXPECT_EQ(info["kind"], "mesh");
   EXPECT_EQ(info["volume"]["voxel_m"], 0.05);
   EXPECT_EQ(info["volume"]["frames"], 21);
@@ -66,7 +66,7 @@ TEST_F(FusedMapTest, ViewsShowTheFloorBelowAndTheWallAhead) {
   succeed("view " + volume() + " --pose 0.3,-0.3,0 --eye-height 0.6 --labels " + file("view.png"));
   const auto labels = io::read_png_grey(file("view.png"));
   ASSERT_TRUE(labels);
-  const auto info = nlohmann::json::parse(succeed("map info --json " + volume()).output);
+  const auto info = nlohmann::json::parse(succeed("map info --json " + volume()).answer);
   const auto id_of = [&](const std::string& name) {
     for (const auto& entry : info["classes"]) {
       if (entry["name"] == name) return entry["id"].get<int>();

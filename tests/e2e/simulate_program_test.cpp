@@ -61,7 +61,7 @@ TEST_F(SimulateProgramTest, WritesARunLogAndSaysWhereTheRobotStarts) {
   const auto log = io::read_run_log(folder_ / "log");
   ASSERT_TRUE(log) << log.error().message;
   EXPECT_EQ(log->frames.size(), 4U);
-  const nlohmann::json report = nlohmann::json::parse(outcome.output);
+  const nlohmann::json report = nlohmann::json::parse(outcome.answer);
   EXPECT_EQ(report["frames"], 4);
   EXPECT_EQ(report["seed"], 5);
   ASSERT_TRUE(log->groundtruth);

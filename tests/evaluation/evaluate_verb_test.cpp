@@ -52,7 +52,7 @@ class EvaluateRunTest : public ::testing::Test {
 TEST_F(EvaluateRunTest, JsonHoldsTheErrorsBesideOdometrys) {
   const Outcome outcome = run_semview(arguments("--json"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const nlohmann::json json = nlohmann::json::parse(outcome.output);
+  const nlohmann::json json = nlohmann::json::parse(outcome.answer);
   const nlohmann::json& result = json.at("estimates").at(0);
   EXPECT_NEAR(result.at("estimate").at("position_m").at("final").get<double>(), 0.1, 1e-6);
   EXPECT_NEAR(result.at("estimate").at("position_m").at("max").get<double>(), 1.0, 1e-6);
@@ -106,7 +106,7 @@ TEST_F(EvaluateRunTest, RoomsAreJudgedByPlaceAndByOrder) {
 
   const Outcome json = run_semview(verb + " --rooms " + sketch.string() + " --json");
   ASSERT_EQ(json.exit_code, 0) << json.output;
-  const auto result = nlohmann::json::parse(json.output)["estimates"][0];
+  const auto result = nlohmann::json::parse(json.answer)["estimates"][0];
   EXPECT_EQ(result["in_right_room"], 3);
   EXPECT_EQ(result["poses"], 5);
   EXPECT_EQ(result["in_right_order"], false);

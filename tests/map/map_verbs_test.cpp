@@ -48,7 +48,7 @@ TEST_F(MapVerbsTest, CheckFindsTwoMapsWithOneId) {
   write_bundle(folder_ / "b", room());
   const Outcome run = semview_map("check --json " + at("a") + " " + at("b"));
   EXPECT_EQ(run.exit_code, 1);
-  const json report = json::parse(run.output);
+  const json report = json::parse(run.answer);
   ASSERT_EQ(report.size(), 2U);
   EXPECT_TRUE(report[0]["ok"].get<bool>());
   EXPECT_FALSE(report[1]["ok"].get<bool>());
@@ -58,7 +58,7 @@ TEST_F(MapVerbsTest, CheckFindsTwoMapsWithOneId) {
 TEST_F(MapVerbsTest, InfoNamesWhatAServerNeeds) {
   const Outcome run = semview_map("info --json " SEMVIEW_SOURCE_DIR "/maps/tutorial");
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  const json info = json::parse(run.output);
+  const json info = json::parse(run.answer);
   EXPECT_EQ(info["id"], "tutorial");
   EXPECT_EQ(info["fingerprint"].get<std::string>().size(), 32U);
   EXPECT_GT(info["free_cells"].get<int>(), 2000);
@@ -77,19 +77,19 @@ TEST_F(MapVerbsTest, ObjectsAreCountedAndTheirMistakesNameTheFeature) {
   testing::write_text(folder_ / "a/objects.geojson", object);
   const Outcome info = semview_map("info --json " + at("a"));
   ASSERT_EQ(info.exit_code, 0) << info.output;
-  EXPECT_EQ(json::parse(info.output)["objects"], 1);
-  EXPECT_EQ(json::parse(info.output)["object_profiles"], 1);
+  EXPECT_EQ(json::parse(info.answer)["objects"], 1);
+  EXPECT_EQ(json::parse(info.answer)["object_profiles"], 1);
 
   testing::write_text(folder_ / "a/objects.geojson", replaced(object, "0.4", "4"));
   const Outcome check = semview_map("check --json " + at("a"));
   EXPECT_EQ(check.exit_code, 1);
-  EXPECT_EQ(json::parse(check.output)[0]["problems"][0]["feature"], 1);
+  EXPECT_EQ(json::parse(check.answer)[0]["problems"][0]["feature"], 1);
 }
 
 TEST_F(MapVerbsTest, InfoOfAMeshMapCountsFreeCells) {
   const Outcome run = semview_map("info --json " SEMVIEW_SOURCE_DIR "/maps/duplex_building");
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  const json info = json::parse(run.output);
+  const json info = json::parse(run.answer);
   EXPECT_EQ(info["kind"], "mesh");
   EXPECT_EQ(info["engine"], "embree");
   EXPECT_FALSE(info["engine_reason"].get<std::string>().empty());

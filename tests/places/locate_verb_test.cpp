@@ -58,7 +58,7 @@ TEST_F(LocateVerbTest, PrintsPlacesAndDrawsWhereItMayBe) {
       " --eye-height 1.2 --rows 150 --elevation -75,75 --top 3 --json --heatmap " +
       file("where.png"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  const json answer = json::parse(run.output);
+  const json answer = json::parse(run.answer);
   ASSERT_GE(answer["places"].size(), 1U);
   ASSERT_LE(answer["places"].size(), 3U);
   const json& best = answer["places"][0];
@@ -83,7 +83,7 @@ TEST_F(LocateVerbTest, CountsHowOftenAListedPictureIsFound) {
                                         file("poses.csv") +
                                         " --eye-height 1.2 --rows 150 --elevation -75,75 --json");
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  const json answer = json::parse(run.output);
+  const json answer = json::parse(run.answer);
   EXPECT_EQ(answer["rows"][0]["method"], "semview");
   EXPECT_EQ(answer["rows"][0]["pictures"], 1);
   EXPECT_EQ(answer["rows"][0]["located_0.5m_15deg"], 1.0);
@@ -118,7 +118,7 @@ TEST_F(LocateVerbTest, AListedPhotographIsLabelledAsObserveLabelsIt) {
     const auto run = testing::run_semview("evaluate images --map " + map_.string() + options +
                                           " --eye-height 1.2 --rows 150 --elevation -75,75 --json");
     EXPECT_EQ(run.exit_code, 0) << run.output;
-    return json::parse(run.output.substr(std::min(run.output.find('{'), run.output.size())));
+    return json::parse(run.answer);
   };
   const json photos = evaluated(" --list " + file("photos.csv") + " --segment " + model);
   EXPECT_EQ(photos, evaluated(" --list " + file("folders.csv")));

@@ -71,7 +71,7 @@ TEST_F(ScoreVerbsTest, TheCompassFindsTheHeadingAtTheTruePosition) {
   const Outcome outcome =
       run("score " + inputs() + " --pose " + pose + " --compass --curve --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const json result = json::parse(outcome.output);
+  const json result = json::parse(outcome.answer);
   EXPECT_EQ(result["observed_pixels"], 360 * 90);
   EXPECT_EQ(result["poses"][0]["curve"].size(), 120U);
   EXPECT_NEAR(result["poses"][0]["best_yaw_deg"].get<double>(), 90.0, 1e-9);
@@ -84,7 +84,7 @@ TEST_F(ScoreVerbsTest, PosesOfAFileAreScoredInOrder) {
                                    << "# far outside\n1000,1000,0\n";
   const Outcome outcome = run("score " + inputs() + " --poses " + file("poses.csv") + " --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const json poses = json::parse(outcome.output)["poses"];
+  const json poses = json::parse(outcome.answer)["poses"];
   ASSERT_EQ(poses.size(), 2U);
   EXPECT_GT(poses[0]["similarity"].get<double>(), 0.2);
   EXPECT_TRUE(poses[1]["similarity"].is_null());
@@ -96,7 +96,7 @@ TEST_F(ScoreVerbsTest, AnExplanationAddsUpToTheScoreAndAServersIsTheSame) {
   const std::string how = " --compass --json --explain ";
   const Outcome here = run("score " + inputs() + pose + how + file("why.png"));
   ASSERT_EQ(here.exit_code, 0) << here.output;
-  const json result = json::parse(here.output);
+  const json result = json::parse(here.answer);
   for (const char* table : {"observed", "pairs"}) {
     int sum = 0;
     int pixels = 0;
@@ -115,7 +115,7 @@ TEST_F(ScoreVerbsTest, AnExplanationAddsUpToTheScoreAndAServersIsTheSame) {
       run("score duplex_level1 --server " + server.endpoint() + " --obs " + file("obs") +
           " --weights " + kMap + "/weights.csv" + pose + how + file("theirs.png"));
   ASSERT_EQ(there.exit_code, 0) << there.output;
-  EXPECT_EQ(json::parse(there.output)["explanation"], result["explanation"]);
+  EXPECT_EQ(json::parse(there.answer)["explanation"], result["explanation"]);
   EXPECT_EQ(semview::testing::file_bytes(file("theirs.png")),
             semview::testing::file_bytes(file("why.png")));
 
@@ -136,7 +136,7 @@ TEST_F(ScoreVerbsTest, TheHeatMapIsHighestWhereTheRobotStands) {
   const Outcome outcome = run("heatmap " + inputs() + " --columns 120 --rows 30 -o " +
                               file("heat.png") + " --npy " + file("heat.npy") + " --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const json result = json::parse(outcome.output);
+  const json result = json::parse(outcome.answer);
   EXPECT_NEAR(result["best"]["x_m"].get<double>(), truth_.x_m, 1e-9);
   EXPECT_NEAR(result["best"]["y_m"].get<double>(), truth_.y_m, 1e-9);
   EXPECT_NEAR(result["best"]["yaw_deg"].get<double>(), 90.0, 1e-9);
@@ -206,7 +206,7 @@ TEST_F(ScoreVerbsTest, WeightsInitWritesWhatWeightsCheckAccepts) {
   const std::string csv = file("w.csv");
   const Outcome init = run("weights init " + std::string(kMap) + " -o " + csv + " --json");
   ASSERT_EQ(init.exit_code, 0) << init.output;
-  EXPECT_TRUE(json::parse(init.output)["unmatched_map"].empty());
+  EXPECT_TRUE(json::parse(init.answer)["unmatched_map"].empty());
   EXPECT_EQ(
       run("weights check " + std::string(kMap) + " " + csv + " --vocabulary ade20k150").exit_code,
       0);
