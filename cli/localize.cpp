@@ -21,6 +21,7 @@
 #include "localize_scorer.hpp"
 #include "localize_start.hpp"
 #include "localize_summary.hpp"
+#include "log_depths.hpp"
 #include "log_images.hpp"
 #include "semview/core/log.hpp"
 #include "semview/io/output_path.hpp"
@@ -151,7 +152,10 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
   SEMVIEW_TRY(const auto motion, motion_model(options));
   SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
   SEMVIEW_TRY(const io::RunLog log, io::read_run_log(options.log));
-  SEMVIEW_TRY(const auto images, open_log_images(log, options.segment));
+  SEMVIEW_TRY(const std::optional<LogDepths> depths, open_log_depths(log, options.model));
+  SEMVIEW_TRY(const auto images,
+              depths ? Result<std::optional<LogImages>>(std::nullopt)
+                     : open_log_images(log, options.segment));
   SEMVIEW_TRY(const Scorer scorer,
               open_scorer(options, images ? images->classes() : log.setup.classes));
   SEMVIEW_TRY(localization::ParticleSet start, first_particles(options, scorer.free_cells));
@@ -186,6 +190,9 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
       return images->observe(frame, scorer.source->profile().camera);
     };
   }
+  if (depths) {
+    hooks.observe = [&](std::size_t frame) { return depths->observe(frame); };
+  }
   Result<robot::Drive> drive = robot::play(log, scorer.source->profile().camera, localizer, hooks);
   if (!drive) {
     return end_early(options, so_far, localizer.particles(), std::move(drive).error());
@@ -208,6 +215,8 @@ void add_localize_verb(CLI::App& app, int& exit_code) {
       "Example:\n"
       "  semview localize --log drive --map maps/duplex_level1 --init 2,-6,90,0.3 -o est.tum\n"
       "  semview localize --log drive --server tcp://127.0.0.1:5560 --map duplex_level1 --global "
+      "-o est.tum\n"
+      "  semview localize --log rgbd_drive --map maps/duplex_level1 --model sdf_sem --global "
       "-o est.tum");
   const auto options = std::make_shared<LocalizeOptions>();
   add_localize_options(*verb, *options);

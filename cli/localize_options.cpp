@@ -62,6 +62,23 @@ localization::HeadingStrategy heading_strategy(const LocalizeOptions& options) {
   return heading == "compass" ? HeadingStrategy::kCompass : HeadingStrategy::kOdometry;
 }
 
+Status check_model(const CLI::App& verb, const LocalizeOptions& options) {
+  SEMVIEW_TRY_STATUS(check_model_options(verb, options.model));
+  if (!scores_depth(options.model)) return {};
+  for (const char* option : {"--server",
+                             "--weights",
+                             "--segment",
+                             "--weighting",
+                             "--power",
+                             "--kappa",
+                             "--refine",
+                             "--estimate-map-affine"}) {
+    if (verb.get_option(option)->count() == 0) continue;
+    return usage(option, fmt::format("needs --model views, not {}", options.model.model));
+  }
+  return {};
+}
+
 void add_start_options(CLI::App& verb, LocalizeOptions& options) {
   auto* init = verb.add_option("--init",
                                options.init,
@@ -84,9 +101,11 @@ void add_start_options(CLI::App& verb, LocalizeOptions& options) {
         return known ? std::string() : how + " is neither `sampled` nor `dense`";
       })
       ->excludes(init);
-  verb.add_option("--particles",
-                  options.particles,
-                  "Number of particles (default 500; 2000 with --global or --estimate-map-affine)")
+  verb.add_option(
+          "--particles",
+          options.particles,
+          "Number of particles (default 500; 2000 with --global or --estimate-map-affine; 3000 "
+          "where --model scores depth)")
       ->check(CLI::Range(std::size_t{1}, kMostParticles));
   verb.add_option("--seed", options.seed, "Seed of every random number")->capture_default_str();
 }
@@ -119,7 +138,7 @@ void add_filter_options(CLI::App& verb, LocalizeOptions& options) {
           options.heading,
           "Heading from `odometry`, from the visual `compass`, the best of all 120 headings, or "
           "`combined`: the best of them that is also near the one by odometry (default: odometry; "
-          "combined with --estimate-map-affine, else compass with --global sampled)")
+          "combined with --estimate-map-affine, else compass with --global sampled of views)")
       ->check(CLI::IsMember({"odometry", "compass", "combined"}));
   const localization::CompassConfig compass;
   verb.add_option(
@@ -191,6 +210,9 @@ void add_localize_options(CLI::App& verb, LocalizeOptions& options) {
   add_start_options(verb, options);
   group_since(verb, first, "Start");
   first = begin_group();
+  add_model_options(verb, options.model);
+  group_since(verb, first, "Likelihood");
+  first = begin_group();
   add_filter_options(verb, options);
   group_since(verb, first, "Filter");
   add_belief_options(verb, options);
@@ -224,6 +246,7 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
                  fmt::format("{}: expected 0 to 360", options.init_heading_sigma_deg));
   }
   SEMVIEW_TRY_STATUS(check_belief_options(verb, options));
+  SEMVIEW_TRY_STATUS(check_model(verb, options));
   return options.server.empty() ? Status() : check_no_site_options(verb);
 }
 
@@ -241,6 +264,11 @@ Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) 
   }
   config.combined = {rad_from_deg(options.combined_sigma_deg), options.combined_lost};
   config.weighting = weighting_of(options.weighting);
+  if (scores_depth(options.model)) {
+    config.weighting.transform = observation::WeightTransform::kExponential;
+    config.weighting.kappa = options.model.effective_pixels;
+    config.judges_lost = false;
+  }
   config.estimate = options.estimate == "best"   ? localization::EstimateKind::kHighestWeight
                     : options.estimate == "mean" ? localization::EstimateKind::kWeightedMean
                                                  : localization::EstimateKind::kStrongestMode;

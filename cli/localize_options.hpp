@@ -9,6 +9,7 @@
 #include <string>
 
 #include "client/robot/localizer.hpp"
+#include "model_options.hpp"
 #include "semview/localization/affine_state.hpp"
 #include "semview/localization/kld_sampling.hpp"
 #include "semview/localization/odometry_motion_model.hpp"
@@ -28,6 +29,7 @@ struct LocalizeOptions {
   std::string weights;
   std::string segment;  ///< the network that labels the log's images; empty: the log has labels
   std::string output;
+  ModelOptions model = {};
   std::uint64_t seed = 1;
   std::size_t particles = 0;  ///< 0: see `particles_of`
   std::string init;
@@ -66,12 +68,13 @@ inline bool is_dense(const LocalizeOptions& options) { return options.global == 
 inline std::string heading_of(const LocalizeOptions& options) {
   if (!options.heading.empty()) return options.heading;
   if (options.estimate_map_affine) return "combined";
-  return options.global == "sampled" ? "compass" : "odometry";
+  return options.global == "sampled" && !scores_depth(options.model) ? "compass" : "odometry";
 }
 
 /// `--particles`, or what stands for it: unknown starts and distortions want more.
 inline std::size_t particles_of(const LocalizeOptions& options) {
   if (options.particles > 0) return options.particles;
+  if (scores_depth(options.model)) return 3000;
   return options.global.empty() && !options.estimate_map_affine ? 500 : 2000;
 }
 

@@ -7,8 +7,10 @@
 #include "client/lib/remote_maps.hpp"
 #include "client/lib/remote_score_source.hpp"
 #include "map_weights.hpp"
+#include "semview/field/field_score_source.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
+#include "semview/service/field_likelihoods.hpp"
 #include "semview/service/shipped_weights.hpp"
 #include "semview/service/site.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
@@ -35,6 +37,21 @@ Result<Scorer> open_in_process(const LocalizeOptions& options, const ClassTable&
   return scorer;
 }
 
+Result<Scorer> open_field(const LocalizeOptions& options) {
+  SiteOptions site_options = options.site;
+  site_options.map = options.map;
+  Scorer scorer;
+  SEMVIEW_TRY(scorer.site, open_site(site_options));
+  SEMVIEW_TRY(const auto likelihood, scorer.site->likelihoods().of(depth_scoring(options.model)));
+  scorer.source = std::make_unique<field::FieldScoreSource>(
+      likelihood, scorer.site->profile(), scorer.site->pool());
+  scorer.free_cells = scorer.site->cells().free_cells();
+  scorer.engine = "distances";
+  scorer.engine_reason = scorer.site->map().volume.empty() ? "of the plan" : "of the fused volume";
+  scorer.weights = "none";
+  return scorer;
+}
+
 Result<Scorer> open_remote(const LocalizeOptions& options, const ClassTable& observed) {
   const std::chrono::milliseconds timeout(static_cast<int>(1000.0 * options.timeout_s));
   SEMVIEW_TRY(const client::ConnectionConfig config,
@@ -56,6 +73,7 @@ Result<Scorer> open_remote(const LocalizeOptions& options, const ClassTable& obs
 }  // namespace
 
 Result<Scorer> open_scorer(const LocalizeOptions& options, const ClassTable& observed) {
+  if (scores_depth(options.model)) return open_field(options);
   return options.server.empty() ? open_in_process(options, observed)
                                 : open_remote(options, observed);
 }

@@ -73,7 +73,12 @@ Result<localization::ParticleSet> first_particles(const LocalizeOptions& options
       return fail(ErrorCode::kFailedPrecondition,
                   fmt::format("{}: --global needs free space, and the map has none", options.map));
     }
-    return localization::uniform_particles(free_cells, count, rng);
+    localization::ParticleSet particles = localization::uniform_particles(free_cells, count, rng);
+    // A single depth image is no compass: each particle keeps the heading it was thrown in with.
+    if (heading_of(options) == "odometry") {
+      for (localization::Particle& one : particles) one.yaw_known = true;
+    }
+    return particles;
   }
   SEMVIEW_TRY(const KnownStart start, known_start(options.init));
   SEMVIEW_TRY_STATUS(check_reaches(start, free_cells));

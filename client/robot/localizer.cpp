@@ -34,8 +34,9 @@ localization::ParticleSet distorted(localization::ParticleSet particles,
   return particles;
 }
 
-bool shows_anything(const LabelImage& labels) {
-  const auto pixels = labels.pixels();
+bool shows_anything(const Observation& observation) {
+  if (observation.voxels) return true;
+  const auto pixels = observation.labels.pixels();
   return std::any_of(
       pixels.begin(), pixels.end(), [](const ClassId label) { return label != kUnknown; });
 }
@@ -94,7 +95,7 @@ Localizer::Localizer(const LocalizerConfig& config,
 }
 
 void Localizer::know_free_cells(std::vector<CellIndex> cells) {
-  probe_cells_ = observation::probe_cells(cells);
+  if (config_.judges_lost) probe_cells_ = observation::probe_cells(cells);
   free_cells_ = std::move(cells);
 }
 
@@ -104,7 +105,7 @@ Result<FrameReport> Localizer::advance(const Frame& frame) {
 
   const std::size_t particles = filter_.particles().size();
   FrameReport report;
-  if (frame.observation && shows_anything(frame.observation->labels)) {
+  if (frame.observation && shows_anything(*frame.observation)) {
     SEMVIEW_TRY(report, score(*frame.observation));
   } else {
     report = not_scored(FrameState::kUnseen,

@@ -39,6 +39,8 @@ struct LocalizerConfig {
   /// Set: particles are given up for others when observations fit worse than they used to.
   std::optional<localization::RecoveryConfig> recovery = {};
   Newcomers newcomers = Newcomers::kUniform;
+  /// Whether frames get a probability of being lost. It was learned on views' similarities.
+  bool judges_lost = true;
   bool refine = false;  ///< the estimate is moved to the top of the observation's similarity
   localization::EstimateKind estimate = localization::EstimateKind::kStrongestMode;
   localization::ModeConfig mode = {};

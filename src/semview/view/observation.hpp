@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "semview/geometry/pose2.hpp"
 #include "semview/semantics/class_table.hpp"
 #include "semview/view/column_view.hpp"
+#include "semview/view/voxel_list.hpp"
 
 namespace semview {
 
@@ -23,6 +25,9 @@ struct Observation {
   /// How sure the network was of each label, 255 for certain; empty where nobody said. No score
   /// uses it yet.
   Image<std::uint8_t> confidence = {};
+  /// What a depth camera saw, for sources that score it; those that compare views do not look here.
+  /// Of frame `base`: `base_from_eye` is the identity where there is no panorama beside it.
+  std::optional<VoxelList> voxels = {};
 };
 
 }  // namespace semview

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// `semview localize --model` as a person or script calls it: a plan is all the map there is, the
+// depth camera drives through the building as it was designed.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "semview/geometry/angle.hpp"
+#include "semview/io/png.hpp"
+#include "semview/io/run_log.hpp"
+#include "semview/io/trajectory.hpp"
+#include "support/depth_log.hpp"
+#include "support/paths.hpp"
+#include "support/semview_runs.hpp"
+
+namespace semview {
+namespace {
+
+using semview::testing::Arguments;
+using semview::testing::file_bytes;
+using ::testing::HasSubstr;
+
+const std::string kMaps = SEMVIEW_SOURCE_DIR "/maps/";
+const std::string kPlan = kMaps + "duplex_level1";
+const std::string kMesh = kMaps + "duplex_building";
+
+class LocalizeDepthTest : public semview::testing::SemviewRuns {
+ protected:
+  void record(int steps) {
+    ASSERT_EQ(run({"simulate",
+                   kPlan,
+                   "--out",
+                   file("drive"),
+                   "--seed",
+                   "3",
+                   "--steps",
+                   std::to_string(steps)}),
+              0)
+        << errors_;
+    const auto driven = io::read_run_log(folder_ / "drive");
+    ASSERT_TRUE(driven) << driven.error().message;
+    truth_ = *driven->groundtruth;
+    testing::record_depth_log(*driven, kMesh, folder_ / "log");
+  }
+
+  /// 0.3 m and 10 degrees uncertain.
+  std::string known_start() const {
+    const Pose2& pose = truth_.front().pose;
+    return fmt::format("{:.3f},{:.3f},{:.1f},0.3", pose.x_m, pose.y_m, deg_from_rad(pose.yaw_rad));
+  }
+
+  Arguments localize(const std::string& output, const Arguments& more) const {
+    Arguments all{"localize", "--log", file("log"), "--map", kPlan, "-o", file(output)};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  Arguments from_known_start(const std::string& output, const Arguments& more) const {
+    Arguments all = localize(output, {"--init", known_start(), "--particles", "300"});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  /// How far off the last pose is.
+  double end_error_m(const std::string& track) const {
+    const auto poses = io::read_tum(folder_ / track);
+    if (!poses || poses->empty()) return 1e9;
+    return distance_m(poses->back().pose, *io::interpolate(truth_, poses->back().stamp_s));
+  }
+
+  double mean_error_m(const std::string& track) const {
+    const auto poses = io::read_tum(folder_ / track);
+    if (!poses || poses->empty()) return 1e9;
+    double sum_m = 0.0;
+    for (const io::StampedPose2& one : *poses) {
+      sum_m += distance_m(one.pose, *io::interpolate(truth_, one.stamp_s));
+    }
+    return sum_m / static_cast<double>(poses->size());
+  }
+
+  std::vector<io::StampedPose2> truth_;
+};
+
+class EachModelTest : public LocalizeDepthTest,
+                      public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(EachModelTest, FollowsTheRobotFromAKnownStart) {
+  record(12);
+  ASSERT_EQ(run(from_known_start("est.tum", {"--model", GetParam()})), 0) << errors_;
+  // The plan leaves out what stands on it, and the start was 0.3 m uncertain.
+  EXPECT_LT(mean_error_m("est.tum"), 0.35);
+  EXPECT_THAT(errors_, HasSubstr("distances (of the plan)"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, EachModelTest, ::testing::Values("sdf", "sem", "sdf_sem"));
+
+TEST_F(LocalizeDepthTest, FromAnUnknownStartTheRobotIsFound) {
+  record(20);
+  ASSERT_EQ(run(localize("est.tum", {"--model", "sdf_sem", "--global"})), 0) << errors_;
+  EXPECT_LT(end_error_m("est.tum"), 0.3);
+}
+
+TEST_F(LocalizeDepthTest, OneSeedMakesOneTrackForAnyNumberOfThreads) {
+  record(4);
+  for (const char* threads : {"1", "2"}) {
+    const Arguments more{"--model", "sdf_sem", "--threads", threads};
+    ASSERT_EQ(run(from_known_start(std::string(threads) + ".tum", more)), 0) << errors_;
+  }
+  EXPECT_FALSE(file_bytes(folder_ / "1.tum").empty());
+  EXPECT_EQ(file_bytes(folder_ / "1.tum"), file_bytes(folder_ / "2.tum"));
+  EXPECT_EQ(file_bytes(folder_ / "1.particles.csv"), file_bytes(folder_ / "2.particles.csv"));
+  ASSERT_EQ(run(from_known_start("other.tum", {"--model", "sdf_sem", "--seed", "2"})), 0);
+  EXPECT_NE(file_bytes(folder_ / "1.tum"), file_bytes(folder_ / "other.tum"));
+}
+
+TEST_F(LocalizeDepthTest, FramesWithoutAnythingToScoreArePlayedByOdometry) {
+  record(4);
+  const LabelImage unnamed(48, 64, kUnknown);
+  ASSERT_TRUE(io::write_png(folder_ / "log/labels/000001.png", unnamed));
+  const Image<std::uint16_t> unmeasured(48, 64, 0);
+  ASSERT_TRUE(io::write_png(folder_ / "log/depth/000002.png", unmeasured));
+  for (const auto& [model, unseen] : {std::pair("sem", "2 unseen"), std::pair("sdf", "1 unseen")}) {
+    ASSERT_EQ(run(from_known_start("est.tum", {"--model", model})), 0) << errors_;
+    EXPECT_THAT(output_, HasSubstr(unseen));
+    EXPECT_THAT(errors_, HasSubstr("frame 2: "));
+  }
+}
+
+TEST_F(LocalizeDepthTest, WhatCannotBeginSaysWhyInOneLine) {
+  record(2);
+  const auto refused = [&](const Arguments& more, const char* reason) {
+    EXPECT_NE(run(from_known_start("est.tum", more)), 0);
+    EXPECT_THAT(errors_, HasSubstr(reason));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "est.tum"));
+  };
+  refused({"--model", "sfd"}, "--model");
+  refused({"--z-sdf", "0.2"}, "--z-sdf: needs --model sdf, sem or sdf_sem");
+  refused({"--model", "sdf", "--sigma-sdf", "0"}, "sigma");
+  refused({"--model", "sdf", "--max-depth", "-1"}, "-1");
+  refused({"--model", "sdf", "--kappa", "30"}, "--kappa: needs --model views, not sdf");
+
+  Arguments on_mesh = from_known_start("est.tum", {"--model", "sdf"});
+  on_mesh[4] = kMesh;
+  EXPECT_EQ(run(on_mesh), 1);
+  EXPECT_THAT(errors_, HasSubstr("map duplex_building is a mesh without a volume"));
+
+  Arguments of_panoramas = from_known_start("est.tum", {"--model", "sdf"});
+  of_panoramas[2] = file("drive");
+  EXPECT_EQ(run(of_panoramas), 1);
+  EXPECT_THAT(errors_, HasSubstr("expected `pinhole`: depth is that of a pinhole camera"));
+
+  folder_.write("log/frames.csv", "timestamp,labels,depth,image\n0,labels/000000.png,,\n");
+  EXPECT_EQ(run(from_known_start("est.tum", {"--model", "sdf"})), 1);
+  EXPECT_THAT(errors_, HasSubstr("frames.csv: no frame has a depth image"));
+}
+
+}  // namespace
+}  // namespace semview
