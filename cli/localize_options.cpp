@@ -65,8 +65,7 @@ localization::HeadingStrategy heading_strategy(const LocalizeOptions& options) {
 Status check_model(const CLI::App& verb, const LocalizeOptions& options) {
   SEMVIEW_TRY_STATUS(check_model_options(verb, options.model));
   if (!scores_depth(options.model)) return {};
-  for (const char* option : {"--server",
-                             "--weights",
+  for (const char* option : {"--weights",
                              "--segment",
                              "--weighting",
                              "--power",

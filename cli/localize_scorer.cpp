@@ -58,11 +58,19 @@ Result<Scorer> open_remote(const LocalizeOptions& options, const ClassTable& obs
               connection_to(options.server, "localize", timeout));
   SEMVIEW_TRY(client::Connection connection, client::Connection::open(config));
   SEMVIEW_TRY(protocol::MapDescription map, client::get_map(connection, options.map));
+  Scorer scorer;
+  scorer.free_cells = std::move(map.free_cells);
+  if (scores_depth(options.model)) {
+    SEMVIEW_TRY(scorer.source,
+                client::RemoteScoreSource::open(config, options.map, depth_scoring(options.model)));
+    scorer.engine = "distances";
+    scorer.engine_reason = "of the server's map";
+    scorer.weights = "none";
+    return scorer;
+  }
   SEMVIEW_TRY(ChosenWeights weights,
               choose_weights(options.weights, options.map, map.weights_csv, observed, map.classes));
-  Scorer scorer;
   scorer.weights = std::move(weights.name);
-  scorer.free_cells = std::move(map.free_cells);
   scorer.engine = std::move(map.engine);
   scorer.engine_reason = std::move(map.engine_reason);
   SEMVIEW_TRY(scorer.source,
@@ -73,9 +81,8 @@ Result<Scorer> open_remote(const LocalizeOptions& options, const ClassTable& obs
 }  // namespace
 
 Result<Scorer> open_scorer(const LocalizeOptions& options, const ClassTable& observed) {
-  if (scores_depth(options.model)) return open_field(options);
-  return options.server.empty() ? open_in_process(options, observed)
-                                : open_remote(options, observed);
+  if (!options.server.empty()) return open_remote(options, observed);
+  return scores_depth(options.model) ? open_field(options) : open_in_process(options, observed);
 }
 
 }  // namespace semview::cli

@@ -22,9 +22,9 @@ struct Scorer {
   std::string weights;                ///< where the weights come from, in words
 };
 
-/// Opens --map in this process for --model sdf, sem or sdf_sem; else --map in this process or at
-/// --server, with the weights for a log whose classes are `observed`: --weights; else the map's own
-/// weights.csv if it speaks of all of them; else the identity if the log's classes are the map's.
+/// Opens --map in this process or at --server. Views are scored with the weights for a log whose
+/// classes are `observed`: --weights; else the map's own weights.csv if it speaks of all of them;
+/// else the identity if the log's classes are the map's. Depth images need none.
 Result<Scorer> open_scorer(const LocalizeOptions& options, const ClassTable& observed);
 
 }  // namespace semview::cli

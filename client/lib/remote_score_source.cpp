@@ -10,7 +10,9 @@
 #include "client/lib/remote_maps.hpp"
 #include "semview/protocol/envelope.hpp"
 #include "semview/protocol/map_wire.hpp"
+#include "semview/protocol/model_wire.hpp"
 #include "semview/protocol/score_wire.hpp"
+#include "semview/protocol/voxel_wire.hpp"
 
 namespace semview::client {
 namespace {
@@ -25,15 +27,42 @@ Result<std::unique_ptr<RemoteScoreSource>> RemoteScoreSource::open(
   SEMVIEW_TRY(Connection connection, Connection::open(config));
   SEMVIEW_TRY(protocol::MapDescription map, get_map(connection, map_id));
   return std::unique_ptr<RemoteScoreSource>(
-      new RemoteScoreSource(std::move(connection), std::move(map), weights));
+      new RemoteScoreSource(std::move(connection), std::move(map), weights.to_csv(), std::nullopt));
+}
+
+Result<std::unique_ptr<RemoteScoreSource>> RemoteScoreSource::open(const ConnectionConfig& config,
+                                                                   const std::string& map_id,
+                                                                   const DepthScoring& scoring) {
+  SEMVIEW_TRY(Connection connection, Connection::open(config));
+  SEMVIEW_TRY(protocol::MapDescription map, get_map(connection, map_id));
+  return std::unique_ptr<RemoteScoreSource>(
+      new RemoteScoreSource(std::move(connection), std::move(map), {}, scoring));
 }
 
 RemoteScoreSource::RemoteScoreSource(Connection connection,
                                      protocol::MapDescription map,
-                                     const similarity::WeightMatrix& weights)
-    : connection_(std::move(connection)), map_(std::move(map)), weights_csv_(weights.to_csv()) {}
+                                     std::string weights_csv,
+                                     std::optional<DepthScoring> depth)
+    : connection_(std::move(connection)),
+      map_(std::move(map)),
+      weights_csv_(std::move(weights_csv)),
+      depth_(depth) {}
 
-Status RemoteScoreSource::set_observation(const Observation& observation) {
+/// What the model looks at.
+Result<v1::SetObservationRequest> RemoteScoreSource::message_of(
+    const Observation& observation) const {
+  v1::SetObservationRequest request;
+  if (depth_) {
+    if (!observation.voxels) {
+      return fail(Error{ErrorCode::kInvalidArgument, "the observation has no depth", "voxels"});
+    }
+    for (const std::string& name : observation.voxels->classes.names()) {
+      request.add_class_names(name);
+    }
+    protocol::to_wire(*observation.voxels, request.mutable_voxels());
+    request.set_stamp_s(observation.stamp_s);
+    return request;
+  }
   const PanoramaCamera& camera = map_.profile.camera;
   if (observation.labels.rows() != camera.rows || observation.labels.columns() != camera.columns) {
     return fail(Error{ErrorCode::kInvalidArgument,
@@ -44,11 +73,15 @@ Status RemoteScoreSource::set_observation(const Observation& observation) {
                                   camera.columns),
                       "labels"});
   }
-  v1::SetObservationRequest request;
   protocol::to_wire(observation, &request);
+  request.set_weights_csv(weights_csv_);
+  return request;
+}
+
+Status RemoteScoreSource::set_observation(const Observation& observation) {
+  SEMVIEW_TRY(v1::SetObservationRequest request, message_of(observation));
   request.set_map_id(map_.summary.id);
   request.set_fingerprint(protocol::to_wire(map_.summary.fingerprint));
-  request.set_weights_csv(weights_csv_);
   observation_body_ = request.SerializeAsString();
   return send_observation();
 }
@@ -107,6 +140,10 @@ Result<std::string> RemoteScoreSource::ask(std::string_view method, Request* wir
   }
   wire->set_map_id(map_.summary.id);
   wire->set_fingerprint(protocol::to_wire(map_.summary.fingerprint));
+  if (depth_) {
+    wire->set_model(protocol::to_wire(depth_->model));
+    protocol::to_wire(*depth_, wire->mutable_scoring());
+  }
   bool sent_now = false;
   for (;;) {
     if (observation_id_.empty()) {

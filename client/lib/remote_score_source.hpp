@@ -11,11 +11,17 @@
 #include "client/lib/remote_heat_map.hpp"
 #include "semview/protocol/descriptions.hpp"
 #include "semview/similarity/weight_matrix.hpp"
+#include "semview/view/score_model.hpp"
 #include "semview/view/score_source.hpp"
+
+namespace semview::v1 {
+class SetObservationRequest;
+}
 
 namespace semview::client {
 
-/// Scores poses against one map of a server, with the same numbers as in-process.
+/// Scores poses against one map of a server, by views or by depth, with the same numbers as
+/// in-process.
 ///
 /// Keeps the current observation: when the server was restarted or has dropped it, `score` sends
 /// it again by itself. When the server cannot be reached, a call fails with kUnavailable or
@@ -28,6 +34,12 @@ class RemoteScoreSource final : public ScoreSource {
   static Result<std::unique_ptr<RemoteScoreSource>> open(const ConnectionConfig& config,
                                                          const std::string& map_id,
                                                          similarity::WeightMatrix weights);
+
+  /// One that scores `Observation::voxels` by a model of depth.
+  /// @errors as above
+  static Result<std::unique_ptr<RemoteScoreSource>> open(const ConnectionConfig& config,
+                                                         const std::string& map_id,
+                                                         const DepthScoring& scoring);
 
   const ViewProfile& profile() const override { return map_.profile; }
   const protocol::MapDescription& map() const { return map_; }
@@ -48,7 +60,9 @@ class RemoteScoreSource final : public ScoreSource {
  private:
   RemoteScoreSource(Connection connection,
                     protocol::MapDescription map,
-                    const similarity::WeightMatrix& weights);
+                    std::string weights_csv,
+                    std::optional<DepthScoring> depth);
+  Result<v1::SetObservationRequest> message_of(const Observation& observation) const;
   Status reach();
   Result<std::string> call(std::string_view method, std::string_view body);
   Status send_observation();
@@ -57,7 +71,8 @@ class RemoteScoreSource final : public ScoreSource {
 
   Connection connection_;
   const protocol::MapDescription map_;
-  const std::string weights_csv_;
+  const std::string weights_csv_;                ///< of views
+  const std::optional<DepthScoring> depth_;      ///< none: views are scored
   std::optional<std::string> observation_body_;  ///< as sent, to repeat it
   bool lost_ = false;                            ///< the last call got no answer in time
   std::string observation_id_;                   ///< empty: the server does not have it

@@ -6,9 +6,11 @@
 #include "client/lib/remote_score_source.hpp"
 #include "client/lib/remote_view_source.hpp"
 #include "semview/core/random.hpp"
+#include "semview/field/field_score_source.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "semview/observation/cell_posterior.hpp"
+#include "semview/service/field_likelihoods.hpp"
 #include "semview/similarity/heat_map.hpp"
 #include "semview/similarity/similarity_score_source.hpp"
 #include "support/eventually.hpp"
@@ -101,6 +103,38 @@ TEST_F(RemoteSourceTest, ScoresOfDistortedMapsAreThoseOfTheSourceInProcess) {
     ASSERT_TRUE(remote) << remote.error().message;
     expect_equal(*remote, in_process(request));
   }
+}
+
+TEST_F(RemoteSourceTest, ScoresOfDepthAreThoseOfTheSourceInProcess) {
+  Observation seen;
+  seen.voxels = VoxelList{ClassTable({"wall", "lamp"}), 0.1, {}, 0.0};
+  for (std::int16_t y = -9; y < 9; ++y) {
+    seen.voxels->voxels.push_back({12, y, 8, 1, 5});
+  }
+  seen.voxels->voxels.push_back({7, 0, 8, 2, 3});
+  const DepthScoring scoring{.z_sdf = 0.3, .sigma_sem_m = 0.4};
+  field::FieldScoreSource local(*site_->likelihoods().of(scoring), site_->profile(), site_->pool());
+  ASSERT_TRUE(local.set_observation(seen));
+  const auto remote = RemoteScoreSource::open(config(), "room", scoring);
+  ASSERT_TRUE(remote) << remote.error().message;
+  ASSERT_TRUE((*remote)->set_observation(seen));
+  for (const bool compass : {false, true}) {
+    const ScoreRequest request{
+        many_poses(50), compass ? HeadingMode::kCompass : HeadingMode::kAsGiven, compass};
+    const auto answer = (*remote)->score(request);
+    ASSERT_TRUE(answer) << answer.error().message;
+    expect_equal(*answer, *local.score(request));
+  }
+  // A server that has forgotten gets the voxels again.
+  stop();
+  start();
+  const auto again = (*remote)->score({many_poses(9)});
+  ASSERT_TRUE(again) << again.error().message;
+  expect_equal(*again, *local.score({many_poses(9)}));
+
+  const Status without = (*remote)->set_observation(observation());
+  ASSERT_FALSE(without);
+  EXPECT_EQ(without.error().field, "voxels");
 }
 
 TEST_F(RemoteSourceTest, ADistortionOutOfRangeIsRefusedHereAndThere) {

@@ -3,12 +3,15 @@
 #include <filesystem>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "semview/geometry/angle.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/trajectory.hpp"
+#include "support/depth_log.hpp"
 #include "support/paths.hpp"
 #include "support/run_program.hpp"
 #include "support/temporary_folder.hpp"
@@ -90,6 +93,23 @@ TEST_F(FusedMapTest, ARobotIsSimulatedAndLocalizedInIt) {
                       " --frame 0 --eye-height 0.6 --top 1 --json")
                   .output,
               HasSubstr("yaw"));
+}
+
+TEST_F(FusedMapTest, ADepthCameraIsLocalizedInTheVolume) {
+  succeed("simulate " + volume() + " --out " + file("drive") +
+          " --steps 3 --frame-distance 0.1 --eye-height 0.6");
+  const auto driven = io::read_run_log(folder_ / "drive");
+  ASSERT_TRUE(driven) << driven.error().message;
+  testing::record_depth_log(*driven, volume(), folder_ / "log");
+  const Pose2 start = driven->groundtruth->front().pose;
+  succeed("localize --log " + file("log") + " --map " + volume() +
+          " --model sdf_sem --particles 300 --eye-height 0.6 -o " + file("est.tum") +
+          fmt::format(" --init {},{},{},0.2", start.x_m, start.y_m, deg_from_rad(start.yaw_rad)));
+  const auto estimate = io::read_tum(folder_ / "est.tum");
+  ASSERT_TRUE(estimate && !estimate->empty());
+  const auto truth = io::interpolate(*driven->groundtruth, estimate->back().stamp_s);
+  ASSERT_TRUE(truth);
+  EXPECT_LT(distance_m(estimate->back().pose, *truth), 0.3);
 }
 
 TEST_F(FusedMapTest, VdbPrintReadsTheVolume) {

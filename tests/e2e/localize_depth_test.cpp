@@ -17,6 +17,7 @@
 #include "semview/io/trajectory.hpp"
 #include "support/depth_log.hpp"
 #include "support/paths.hpp"
+#include "support/running_server.hpp"
 #include "support/semview_runs.hpp"
 
 namespace semview {
@@ -106,7 +107,7 @@ TEST_F(LocalizeDepthTest, FromAnUnknownStartTheRobotIsFound) {
 }
 
 TEST_F(LocalizeDepthTest, OneSeedMakesOneTrackForAnyNumberOfThreads) {
-  record(4);
+  record(3);
   for (const char* threads : {"1", "2"}) {
     const Arguments more{"--model", "sdf_sem", "--threads", threads};
     ASSERT_EQ(run(from_known_start(std::string(threads) + ".tum", more)), 0) << errors_;
@@ -114,8 +115,24 @@ TEST_F(LocalizeDepthTest, OneSeedMakesOneTrackForAnyNumberOfThreads) {
   EXPECT_FALSE(file_bytes(folder_ / "1.tum").empty());
   EXPECT_EQ(file_bytes(folder_ / "1.tum"), file_bytes(folder_ / "2.tum"));
   EXPECT_EQ(file_bytes(folder_ / "1.particles.csv"), file_bytes(folder_ / "2.particles.csv"));
-  ASSERT_EQ(run(from_known_start("other.tum", {"--model", "sdf_sem", "--seed", "2"})), 0);
-  EXPECT_NE(file_bytes(folder_ / "1.tum"), file_bytes(folder_ / "other.tum"));
+}
+
+TEST_F(LocalizeDepthTest, AServerScoresToTheSameBytes) {
+  record(3);
+  const testing::RunningServer server({"--map", kPlan, "--bind", "tcp://127.0.0.1:*"},
+                                      folder_ / "server");
+  const Arguments settings{"--model", "sdf_sem", "--movable", "--sigma-sem", "0.8"};
+  Arguments arguments = localize("here.tum", {"--global", "--particles", "400"});
+  arguments.insert(arguments.end(), settings.begin(), settings.end());
+  ASSERT_EQ(run(arguments), 0) << errors_;
+  arguments[4] = "duplex_level1";
+  arguments[6] = file("there.tum");
+  arguments.insert(arguments.end(), {"--server", server.endpoint()});
+  ASSERT_EQ(run(arguments), 0) << errors_;
+  EXPECT_FALSE(file_bytes(folder_ / "here.tum").empty());
+  EXPECT_EQ(file_bytes(folder_ / "here.tum"), file_bytes(folder_ / "there.tum"));
+  EXPECT_EQ(file_bytes(folder_ / "here.particles.csv"),
+            file_bytes(folder_ / "there.particles.csv"));
 }
 
 TEST_F(LocalizeDepthTest, FramesWithoutAnythingToScoreArePlayedByOdometry) {
