@@ -191,7 +191,9 @@ Status localize(const CLI::App& verb, const LocalizeOptions& options) {
     };
   }
   if (depths) {
-    hooks.observe = [&](std::size_t frame) { return depths->observe(frame); };
+    hooks.observe = [&](std::size_t frame) {
+      return depths->observe(frame, scorer.source->profile().camera);
+    };
   }
   Result<robot::Drive> drive = robot::play(log, scorer.source->profile().camera, localizer, hooks);
   if (!drive) {

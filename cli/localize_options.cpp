@@ -65,15 +65,15 @@ localization::HeadingStrategy heading_strategy(const LocalizeOptions& options) {
 Status check_model(const CLI::App& verb, const LocalizeOptions& options) {
   SEMVIEW_TRY_STATUS(check_model_options(verb, options.model));
   if (!scores_depth(options.model)) return {};
-  for (const char* option : {"--weights",
-                             "--segment",
-                             "--weighting",
-                             "--power",
-                             "--kappa",
-                             "--refine",
-                             "--estimate-map-affine"}) {
+  for (const char* option :
+       {"--segment", "--weighting", "--power", "--refine", "--estimate-map-affine"}) {
     if (verb.get_option(option)->count() == 0) continue;
     return usage(option, fmt::format("needs --model views, not {}", options.model.model));
+  }
+  if (is_mixed(options.model)) return as_option(validate(mixed_config(options)));
+  for (const char* option : {"--weights", "--kappa"}) {
+    if (verb.get_option(option)->count() == 0) continue;
+    return usage(option, fmt::format("needs --model views or mixed, not {}", options.model.model));
   }
   return {};
 }
@@ -249,6 +249,10 @@ Status check_localize_options(const CLI::App& verb, const LocalizeOptions& optio
   return options.server.empty() ? Status() : check_no_site_options(verb);
 }
 
+observation::MixedConfig mixed_config(const LocalizeOptions& options) {
+  return {options.weighting.kappa, options.model.effective_pixels};
+}
+
 Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) {
   robot::LocalizerConfig config;
   config.heading = heading_strategy(options);
@@ -265,7 +269,8 @@ Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options) 
   config.weighting = weighting_of(options.weighting);
   if (scores_depth(options.model)) {
     config.weighting.transform = observation::WeightTransform::kExponential;
-    config.weighting.kappa = options.model.effective_pixels;
+    // What both models give together is a logarithm of a likelihood already.
+    config.weighting.kappa = is_mixed(options.model) ? 1.0 : options.model.effective_pixels;
     config.judges_lost = false;
   }
   config.estimate = options.estimate == "best"   ? localization::EstimateKind::kHighestWeight

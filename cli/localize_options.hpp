@@ -16,6 +16,7 @@
 #include "semview/localization/particle_set.hpp"
 #include "semview/localization/position_noise_model.hpp"
 #include "semview/localization/recovery.hpp"
+#include "semview/observation/mixed_score_source.hpp"
 #include "site_options.hpp"
 #include "weighting_options.hpp"
 
@@ -84,6 +85,9 @@ void add_localize_options(CLI::App& verb, LocalizeOptions& options);
 /// What belongs together, and what the numbers may be.
 /// @errors kInvalidArgument, with the option as the field.
 Status check_localize_options(const CLI::App& verb, const LocalizeOptions& options);
+
+/// Of --model mixed.
+observation::MixedConfig mixed_config(const LocalizeOptions& options);
 
 /// @errors kInvalidArgument, with the option as the field.
 Result<robot::LocalizerConfig> localizer_config(const LocalizeOptions& options);

@@ -12,7 +12,8 @@
 
 namespace semview::cli {
 
-Result<std::optional<Observation>> LogDepths::observe(std::size_t frame) const {
+Result<std::optional<Observation>> LogDepths::observe(std::size_t frame,
+                                                      const PanoramaCamera& profile) const {
   const io::FrameFiles& files = log_.frames[frame];
   if (files.depth.empty()) return std::optional<Observation>();
   const auto& mounted = std::get<MountedPinhole>(log_.setup.camera);
@@ -36,6 +37,10 @@ Result<std::optional<Observation>> LogDepths::observe(std::size_t frame) const {
   Observation observation;
   observation.classes = seen.classes;
   observation.stamp_s = seen.stamp_s;
+  if (with_panorama_) {
+    if (!has_classes) return std::optional<Observation>();
+    SEMVIEW_TRY(observation, io::read_frame(log_, frame, profile));
+  }
   observation.voxels = *std::move(voxels);
   return std::optional(std::move(observation));
 }

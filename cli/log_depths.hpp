@@ -19,17 +19,21 @@ class LogDepths {
   LogDepths(const io::RunLog& log, const ModelOptions& options)
       : log_(log),
         reduction_(options.reduction),
-        needs_classes_(options.model == name(ScoreModel::kSem)) {}
+        needs_classes_(options.model == name(ScoreModel::kSem)),
+        with_panorama_(is_mixed(options)) {}
 
-  /// What the camera saw at a frame; none of a frame without anything that the model looks at: a
-  /// depth that can be used, and for `sem` a class.
+  /// What the camera saw at a frame; none of a frame without all that the model looks at: a depth
+  /// that can be used, for `sem` a class, and for `mixed` labels.
+  /// @param profile  of the panorama that `mixed` compares, too
   /// @errors those of reading the images.
-  Result<std::optional<Observation>> observe(std::size_t frame) const;
+  Result<std::optional<Observation>> observe(std::size_t frame,
+                                             const PanoramaCamera& profile) const;
 
  private:
   const io::RunLog& log_;
   observation::VoxelReductionConfig reduction_;
   bool needs_classes_;
+  bool with_panorama_;
 };
 
 /// The depths of `log`; none where --model scores views.

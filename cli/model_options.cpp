@@ -24,8 +24,8 @@ void add_model_options(CLI::App& verb, ModelOptions& options) {
                   options.model,
                   "What scores poses: `views`, label panoramas; or of depth images the distance to "
                   "the nearest surface (`sdf`), to the nearest thing of the same class (`sem`), or "
-                  "both (`sdf_sem`)")
-      ->check(CLI::IsMember({"views", "sdf", "sem", "sdf_sem"}))
+                  "both (`sdf_sem`); or `mixed`: views and sdf_sem")
+      ->check(CLI::IsMember({"views", "sdf", "sem", "sdf_sem", "mixed"}))
       ->capture_default_str();
   verb.add_option("--z-sdf", options.z_sdf, "sdf_sem: share of the distance to surfaces, 0 to 1")
       ->capture_default_str();
@@ -54,7 +54,7 @@ Status check_model_options(const CLI::App& verb, const ModelOptions& options) {
     for (const char* option : kDepthOptions) {
       if (verb.get_option(option)->count() == 0) continue;
       return fail(Error{ErrorCode::kInvalidArgument,
-                        fmt::format("{}: needs --model sdf, sem or sdf_sem", option),
+                        fmt::format("{}: needs --model sdf, sem, sdf_sem or mixed", option),
                         option});
     }
     return {};
@@ -69,7 +69,7 @@ Status check_model_options(const CLI::App& verb, const ModelOptions& options) {
 }
 
 DepthScoring depth_scoring(const ModelOptions& options) {
-  return {*score_model(options.model),
+  return {is_mixed(options) ? ScoreModel::kSdfSem : *score_model(options.model),
           options.z_sdf,
           options.sigma_sdf_m,
           options.sigma_sem_m,

@@ -24,10 +24,18 @@ struct ModelOptions {
   observation::VoxelReductionConfig reduction = {};
 };
 
-/// Whether depth images are scored, not views.
+/// Whether depth images are scored.
 inline bool scores_depth(const ModelOptions& options) {
   return options.model != name(ScoreModel::kViews);
 }
+
+/// Whether views are scored.
+inline bool scores_views(const ModelOptions& options) {
+  return options.model == name(ScoreModel::kViews) || options.model == "mixed";
+}
+
+/// Whether views and depth images are scored together.
+inline bool is_mixed(const ModelOptions& options) { return options.model == "mixed"; }
 
 /// `options` must outlive the parse.
 void add_model_options(CLI::App& verb, ModelOptions& options);
@@ -35,7 +43,7 @@ void add_model_options(CLI::App& verb, ModelOptions& options);
 /// @errors kInvalidArgument: an option of depth models with views; numbers out of range.
 Status check_model_options(const CLI::App& verb, const ModelOptions& options);
 
-/// Of a depth model.
+/// Of a depth model; of `mixed` that of its depth, sdf_sem.
 DepthScoring depth_scoring(const ModelOptions& options);
 
 }  // namespace semview::cli

@@ -92,13 +92,18 @@ class EachModelTest : public LocalizeDepthTest,
 
 TEST_P(EachModelTest, FollowsTheRobotFromAKnownStart) {
   record(12);
-  ASSERT_EQ(run(from_known_start("est.tum", {"--model", GetParam()})), 0) << errors_;
+  Arguments model{"--model", GetParam()};
+  const bool mixed = model.back() == "mixed";
+  if (mixed) model.insert(model.end(), {"--weights", "identity", "--eye-height", "0.9"});
+  ASSERT_EQ(run(from_known_start("est.tum", model)), 0) << errors_;
   // The plan leaves out what stands on it, and the start was 0.3 m uncertain.
   EXPECT_LT(mean_error_m("est.tum"), 0.35);
-  EXPECT_THAT(errors_, HasSubstr("distances (of the plan)"));
+  EXPECT_THAT(errors_, HasSubstr(mixed ? "weights: identity" : "distances (of the plan)"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, EachModelTest, ::testing::Values("sdf", "sem", "sdf_sem"));
+INSTANTIATE_TEST_SUITE_P(Models,
+                         EachModelTest,
+                         ::testing::Values("sdf", "sem", "sdf_sem", "mixed"));
 
 TEST_F(LocalizeDepthTest, FromAnUnknownStartTheRobotIsFound) {
   record(20);
@@ -117,13 +122,18 @@ TEST_F(LocalizeDepthTest, OneSeedMakesOneTrackForAnyNumberOfThreads) {
   EXPECT_EQ(file_bytes(folder_ / "1.particles.csv"), file_bytes(folder_ / "2.particles.csv"));
 }
 
-TEST_F(LocalizeDepthTest, AServerScoresToTheSameBytes) {
+class ServedModelTest : public LocalizeDepthTest,
+                        public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(ServedModelTest, AServerScoresToTheSameBytes) {
   record(3);
   const testing::RunningServer server({"--map", kPlan, "--bind", "tcp://127.0.0.1:*"},
                                       folder_ / "server");
-  const Arguments settings{"--model", "sdf_sem", "--movable", "--sigma-sem", "0.8"};
-  Arguments arguments = localize("here.tum", {"--global", "--particles", "400"});
-  arguments.insert(arguments.end(), settings.begin(), settings.end());
+  Arguments arguments =
+      from_known_start("here.tum", {"--model", GetParam(), "--movable", "--sigma-sem", "0.8"});
+  if (GetParam() == std::string("mixed")) {
+    arguments.insert(arguments.end(), {"--weights", "identity"});
+  }
   ASSERT_EQ(run(arguments), 0) << errors_;
   arguments[4] = "duplex_level1";
   arguments[6] = file("there.tum");
@@ -134,6 +144,8 @@ TEST_F(LocalizeDepthTest, AServerScoresToTheSameBytes) {
   EXPECT_EQ(file_bytes(folder_ / "here.particles.csv"),
             file_bytes(folder_ / "there.particles.csv"));
 }
+
+INSTANTIATE_TEST_SUITE_P(Models, ServedModelTest, ::testing::Values("sdf_sem", "mixed"));
 
 TEST_F(LocalizeDepthTest, FramesWithoutAnythingToScoreArePlayedByOdometry) {
   record(4);
@@ -156,10 +168,12 @@ TEST_F(LocalizeDepthTest, WhatCannotBeginSaysWhyInOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "est.tum"));
   };
   refused({"--model", "sfd"}, "--model");
-  refused({"--z-sdf", "0.2"}, "--z-sdf: needs --model sdf, sem or sdf_sem");
+  refused({"--z-sdf", "0.2"}, "--z-sdf: needs --model sdf, sem, sdf_sem or mixed");
   refused({"--model", "sdf", "--sigma-sdf", "0"}, "sigma");
   refused({"--model", "sdf", "--max-depth", "-1"}, "-1");
-  refused({"--model", "sdf", "--kappa", "30"}, "--kappa: needs --model views, not sdf");
+  refused({"--model", "mixed", "--effective-pixels", "5000"}, "effective-pixels 5000");
+  refused({"--model", "mixed", "--power", "3"}, "--power: needs --model views, not mixed");
+  refused({"--model", "sdf", "--kappa", "30"}, "--kappa: needs --model views or mixed, not sdf");
 
   Arguments on_mesh = from_known_start("est.tum", {"--model", "sdf"});
   on_mesh[4] = kMesh;
