@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "client/lib/remote_heat_map.hpp"
+#include "model_options.hpp"
 #include "observation_option.hpp"
 #include "semview/core/hash.hpp"
 #include "semview/picture/plan.hpp"
@@ -19,7 +21,10 @@ struct HeatMapInputs {
   SiteOptions site;
   std::string server;  ///< empty: in this process
   ObservationOption observation;
-  std::string weights;
+  std::string weights;                       ///< of views
+  std::vector<std::string> models{"views"};  ///< `views` alone, or models of depth
+  ModelOptions depth;                        ///< their settings; its `model` is not looked at
+  std::optional<double> heading_yaw_rad;     ///< of depth in this process: the only one tried
 };
 
 /// A heat map, and the map that it is of.
@@ -30,11 +35,14 @@ struct HeatMapOfMap {
   Fingerprint fingerprint;
   std::string engine, engine_reason;
   std::optional<picture::Plan> plan;  ///< none of a mesh or of a server's map
+  std::string model;
+  /// Where the eye was, or of depth the robot, if a run log with ground truth says so.
+  std::optional<Pose2> truth;
 };
 
-/// The same values either way.
+/// One a model, the same values either way.
 /// @errors those of opening the inputs, of `similarity::heat_map` and of the server.
-Result<HeatMapOfMap> heat_map_of(const HeatMapInputs& inputs,
-                                 const client::HeatMapQuestion& question);
+Result<std::vector<HeatMapOfMap>> heat_maps_of(const HeatMapInputs& inputs,
+                                               const client::HeatMapQuestion& question);
 
 }  // namespace semview::cli

@@ -27,6 +27,10 @@ void add_model_options(CLI::App& verb, ModelOptions& options) {
                   "both (`sdf_sem`); or `mixed`: views and sdf_sem")
       ->check(CLI::IsMember({"views", "sdf", "sem", "sdf_sem", "mixed"}))
       ->capture_default_str();
+  add_depth_options(verb, options);
+}
+
+void add_depth_options(CLI::App& verb, ModelOptions& options) {
   verb.add_option("--z-sdf", options.z_sdf, "sdf_sem: share of the distance to surfaces, 0 to 1")
       ->capture_default_str();
   verb.add_option("--sigma-sdf", options.sigma_sdf_m, "Sigma of the distance to surfaces in m")
@@ -54,7 +58,7 @@ Status check_model_options(const CLI::App& verb, const ModelOptions& options) {
     for (const char* option : kDepthOptions) {
       if (verb.get_option(option)->count() == 0) continue;
       return fail(Error{ErrorCode::kInvalidArgument,
-                        fmt::format("{}: needs --model sdf, sem, sdf_sem or mixed", option),
+                        fmt::format("{}: needs a --model of depth, not views", option),
                         option});
     }
     return {};

@@ -37,8 +37,10 @@ inline bool scores_views(const ModelOptions& options) {
 /// Whether views and depth images are scored together.
 inline bool is_mixed(const ModelOptions& options) { return options.model == "mixed"; }
 
-/// `options` must outlive the parse.
+/// `--model` and the options of the models of depth; `options` must outlive the parse.
 void add_model_options(CLI::App& verb, ModelOptions& options);
+/// The latter alone.
+void add_depth_options(CLI::App& verb, ModelOptions& options);
 
 /// @errors kInvalidArgument: an option of depth models with views; numbers out of range.
 Status check_model_options(const CLI::App& verb, const ModelOptions& options);

@@ -47,7 +47,12 @@ Result<ClassTable> read_observed_classes(const ObservationOption& option) {
 Result<Observation> read(const ObservationOption& option, const PanoramaCamera& profile) {
   SEMVIEW_TRY(const bool is_run_log, finds_run_log(option));
   if (!option.frame && !is_run_log) return io::read_observation(option.folder, profile);
-  SEMVIEW_TRY(const io::RunLog log, io::read_run_log(option.folder));
+  SEMVIEW_TRY(const io::RunLog log, read_log_of(option));
+  return io::read_frame(log, *option.frame, profile);
+}
+
+Result<io::RunLog> read_log_of(const ObservationOption& option) {
+  SEMVIEW_TRY(io::RunLog log, io::read_run_log(option.folder));
   if (!option.frame || *option.frame >= log.frames.size()) {
     return fail(Error{ErrorCode::kInvalidArgument,
                       fmt::format("{}: is a run log of {} frames; expected --frame 0 to {}",
@@ -56,7 +61,13 @@ Result<Observation> read(const ObservationOption& option, const PanoramaCamera& 
                                   log.frames.size() - 1),
                       "--frame"});
   }
-  return io::read_frame(log, *option.frame, profile);
+  return log;
+}
+
+std::optional<Pose2> true_pose(const io::RunLog& log, std::size_t frame) {
+  if (!log.groundtruth) return std::nullopt;
+  const Result<Pose2> pose = io::interpolate(*log.groundtruth, log.frames[frame].stamp_s);
+  return pose ? std::optional(*pose) : std::nullopt;
 }
 
 }  // namespace semview::cli

@@ -7,6 +7,7 @@
 
 #include "semview/core/result.hpp"
 #include "semview/geometry/panorama_camera.hpp"
+#include "semview/io/run_log.hpp"
 #include "semview/view/observation.hpp"
 
 namespace CLI {
@@ -25,6 +26,14 @@ void add_observation_option(CLI::App& verb, ObservationOption& option);
 /// The observer's vocabulary.
 /// @errors as `read`.
 Result<ClassTable> read_observed_classes(const ObservationOption& option);
+
+/// The run log whose frame is meant.
+/// @errors those of reading it; kInvalidArgument: --frame is not given, or past its end; an
+/// observation folder.
+Result<io::RunLog> read_log_of(const ObservationOption& option);
+
+/// Where the robot truly was at a frame of `log`, if that is known.
+std::optional<Pose2> true_pose(const io::RunLog& log, std::size_t frame);
 
 /// The observation, resampled to `profile`.
 /// @errors those of the readers; kInvalidArgument: a run log without --frame, or past its end.

@@ -168,7 +168,7 @@ TEST_F(LocalizeDepthTest, WhatCannotBeginSaysWhyInOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "est.tum"));
   };
   refused({"--model", "sfd"}, "--model");
-  refused({"--z-sdf", "0.2"}, "--z-sdf: needs --model sdf, sem, sdf_sem or mixed");
+  refused({"--z-sdf", "0.2"}, "--z-sdf: needs a --model of depth, not views");
   refused({"--model", "sdf", "--sigma-sdf", "0"}, "sigma");
   refused({"--model", "sdf", "--max-depth", "-1"}, "-1");
   refused({"--model", "mixed", "--effective-pixels", "5000"}, "effective-pixels 5000");

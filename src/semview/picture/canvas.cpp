@@ -207,15 +207,21 @@ void draw_colour_bar(cairo_t* cr,
   const std::vector<double> ticks =
       round_ticks(low, high, std::clamp(static_cast<int>(height / 46.0), 2, 8));
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
+  double widest = 0.0;
   for (const double tick : ticks) {
     const double at = high > low ? y + height * (high - tick) / (high - low) : y + height / 2.0;
     set_colour(cr, kInk);
     fill_rectangle(cr, x + kWidth, at - 0.5, 5.0, 1.0);
-    draw_text(cr, x + kWidth + 9.0, at + 4.5, tick_text(tick, step), kSmallTextSize);
+    const std::string text = tick_text(tick, step);
+    widest = std::max(widest, text_width(text, kSmallTextSize));
+    draw_text(cr, x + kWidth + 9.0, at + 4.5, text, kSmallTextSize);
   }
   set_colour(cr, kFaintInk);
   cairo_save(cr);
-  cairo_translate(cr, x + kColourBarWidth - 8.0, y + height / 2.0);
+  // Beside the numbers: long ones push it into the margin.
+  const double beside =
+      std::max(kColourBarWidth - 8.0, kWidth + 9.0 + widest + kSmallTextSize + 4.0);
+  cairo_translate(cr, x + beside, y + height / 2.0);
   cairo_rotate(cr, -M_PI / 2.0);
   draw_text(cr, 0.0, 0.0, quantity, kSmallTextSize, Align::kCentre);
   cairo_restore(cr);

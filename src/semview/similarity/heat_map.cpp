@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -42,6 +43,60 @@ Result<Bounds> bounds_of(std::span<const CellIndex> cells) {
   return bounds;
 }
 
+/// Cells to ask about: distinct, so that no two threads write one pixel.
+std::vector<CellIndex> distinct(std::span<const CellIndex> requested) {
+  std::vector<CellIndex> cells(requested.begin(), requested.end());
+  std::ranges::sort(cells);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+ScoreRequest at_headings(std::span<const CellIndex> cells, std::span<const int> headings) {
+  ScoreRequest request;
+  for (const CellIndex& cell : cells) {
+    Pose2 pose = PoseGrid::center(cell);
+    for (const int heading : headings) {
+      pose.yaw_rad = PoseGrid::heading_yaw_rad(heading);
+      request.poses.push_back(pose);
+    }
+  }
+  return request;
+}
+
+/// @param sums  of the cell, one each of `headings`; all 120 with a `cell_weight`
+void take_cell(const ScoreBatch& batch,
+               std::span<const std::int32_t> sums,
+               std::span<const int> headings,
+               const CellIndex& cell,
+               const CellWeight& cell_weight,
+               HeatMap& map) {
+  const auto best = std::ranges::max_element(sums);
+  if (*best == kNoView) return;
+  const int row = cell.iy - map.origin.iy;
+  const int column = cell.ix - map.origin.ix;
+  map.similarity.at(row, column) = static_cast<float>(batch.similarity(*best));
+  map.best_heading.at(row, column) =
+      static_cast<std::uint8_t>(headings[static_cast<std::size_t>(best - sums.begin())]);
+  if (!cell_weight) return;
+  std::array<double, PoseGrid::kHeadings> similarities{};
+  std::ranges::transform(
+      sums, similarities.begin(), [&batch](std::int32_t sum) { return batch.similarity(sum); });
+  map.log_weight.at(row, column) = cell_weight(similarities);
+}
+
+HeatMap unscored(const Bounds& bounds, bool with_log_weight) {
+  const auto rows = static_cast<int>(bounds.rows());
+  const auto columns = static_cast<int>(bounds.columns());
+  HeatMap map;
+  map.origin = bounds.low;
+  map.similarity = Image<float>(rows, columns, std::numeric_limits<float>::quiet_NaN());
+  map.best_heading = Image<std::uint8_t>(rows, columns, kNoHeading);
+  if (with_log_weight) {
+    map.log_weight = Image<double>(rows, columns, std::numeric_limits<double>::quiet_NaN());
+  }
+  return map;
+}
+
 }  // namespace
 
 GridKey HeatMap::highest(const Image<float>& values) const {
@@ -72,20 +127,9 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
               "headings"});
   }
   SEMVIEW_TRY(const Bounds bounds, bounds_of(requested));
-  // Distinct, so that no two threads write one pixel.
-  std::vector<CellIndex> cells(requested.begin(), requested.end());
-  std::ranges::sort(cells);
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  const std::vector<CellIndex> cells = distinct(requested);
   const int step = PoseGrid::kHeadings / headings;
-  const auto rows = static_cast<int>(bounds.rows());
-  const auto columns = static_cast<int>(bounds.columns());
-  HeatMap map;
-  map.origin = bounds.low;
-  map.similarity = Image<float>(rows, columns, std::numeric_limits<float>::quiet_NaN());
-  map.best_heading = Image<std::uint8_t>(rows, columns, kNoHeading);
-  if (cell_weight) {
-    map.log_weight = Image<double>(rows, columns, std::numeric_limits<double>::quiet_NaN());
-  }
+  HeatMap map = unscored(bounds, cell_weight != nullptr);
   const auto visit = [&](std::size_t i, const ColumnView* view) {
     if (view == nullptr) return;
     std::array<std::int32_t, PoseGrid::kHeadings> sums{};
@@ -114,6 +158,61 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
                           visit,
                           progress ? report : std::function<bool(std::size_t)>()));
   return map;
+}
+
+Result<HeatMap> heat_map(ScoreSource& source,
+                         std::span<const CellIndex> requested,
+                         std::span<const int> headings,
+                         const std::function<bool(std::size_t, std::size_t)>& progress,
+                         const CellWeight& cell_weight) {
+  const bool on_grid =
+      !headings.empty() && headings.front() >= 0 && headings.back() < PoseGrid::kHeadings &&
+      std::ranges::adjacent_find(headings, std::ranges::greater_equal()) == headings.end();
+  if (!on_grid || (cell_weight && headings.size() != PoseGrid::kHeadings)) {
+    return fail(Error{ErrorCode::kInvalidArgument,
+                      fmt::format("heat map: {} headings; expected increasing ones of the {}, and "
+                                  "all of them for weights",
+                                  headings.size(),
+                                  PoseGrid::kHeadings),
+                      "headings"});
+  }
+  SEMVIEW_TRY(const Bounds bounds, bounds_of(requested));
+  const std::vector<CellIndex> cells = distinct(requested);
+  HeatMap map = unscored(bounds, cell_weight != nullptr);
+  constexpr std::size_t kPosesAtOnce = 16'384;
+  const std::size_t at_once = std::max<std::size_t>(kPosesAtOnce / headings.size(), 1);
+  for (std::size_t first = 0; first < cells.size(); first += at_once) {
+    const auto some = std::span(cells).subspan(first, std::min(at_once, cells.size() - first));
+    SEMVIEW_TRY(const ScoreBatch batch, source.score(at_headings(some, headings)));
+    if (batch.sums.size() != some.size() * headings.size()) {
+      return fail(ErrorCode::kInternal,
+                  fmt::format("heat map: the score source answered {} sums of {} poses",
+                              batch.sums.size(),
+                              some.size() * headings.size()));
+    }
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      take_cell(batch,
+                std::span(batch.sums).subspan(i * headings.size(), headings.size()),
+                headings,
+                some[i],
+                cell_weight,
+                map);
+    }
+    map.origins += batch.origins;
+    const std::size_t done = first + some.size();
+    if (progress && !progress(done, cells.size())) {
+      return fail(ErrorCode::kCancelled, "heat map: cancelled");
+    }
+  }
+  return map;
+}
+
+std::vector<int> even_headings(int count) {
+  std::vector<int> headings;
+  for (int i = 0; i < count; ++i) {
+    headings.push_back((2 * i * PoseGrid::kHeadings + count) / (2 * count));
+  }
+  return headings;
 }
 
 }  // namespace semview::similarity

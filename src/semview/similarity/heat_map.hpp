@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "semview/core/result.hpp"
 #include "semview/core/thread_pool.hpp"
 #include "semview/geometry/image.hpp"
 #include "semview/geometry/pose_grid.hpp"
 #include "semview/similarity/prepared_observation.hpp"
+#include "semview/view/score_source.hpp"
 #include "semview/view/view_source.hpp"
 
 namespace semview::similarity {
@@ -51,5 +53,18 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
                          ThreadPool& pool,
                          const std::function<bool(std::size_t, std::size_t)>& progress = {},
                          const CellWeight& cell_weight = {});
+
+/// The same of whatever `source` compares, an observation that it has been given; slower for views.
+/// @param headings  Of the PoseGrid, increasing. With a `cell_weight` all 120.
+/// @errors as above, also where there are no headings, or not such; what `source` fails with.
+Result<HeatMap> heat_map(ScoreSource& source,
+                         std::span<const CellIndex> cells,
+                         std::span<const int> headings,
+                         const std::function<bool(std::size_t, std::size_t)>& progress = {},
+                         const CellWeight& cell_weight = {});
+
+/// The headings of the PoseGrid nearest to `count` evenly spaced ones from 0; halves go up.
+/// @param count  1 to 120
+std::vector<int> even_headings(int count);
 
 }  // namespace semview::similarity
