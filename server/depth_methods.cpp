@@ -102,24 +102,4 @@ Result<Plan> plan_depth_score(Services& services,
   return plan;
 }
 
-Result<std::vector<double>> depth_similarities(const DepthModel& model,
-                                               std::span<const CellIndex> cells,
-                                               int headings,
-                                               ThreadPool& pool) {
-  ScoreRequest request;
-  for (const CellIndex& cell : cells) {
-    Pose2 pose = PoseGrid::center(cell);
-    for (int k = 0; k < PoseGrid::kHeadings; k += PoseGrid::kHeadings / headings) {
-      pose.yaw_rad = PoseGrid::heading_yaw_rad(k);
-      request.poses.push_back(pose);
-    }
-  }
-  SEMVIEW_TRY(const ScoreBatch batch,
-              field::score_depth(*model.likelihood, *model.observation, request, pool));
-  std::vector<double> similarities;
-  similarities.reserve(batch.sums.size());
-  for (const std::int32_t sum : batch.sums) similarities.push_back(batch.similarity(sum));
-  return similarities;
-}
-
 }  // namespace semview::server

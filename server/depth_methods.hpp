@@ -4,12 +4,8 @@
 
 #include <cstddef>
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "methods.hpp"
-#include "semview/geometry/pose2.hpp"
-#include "semview/geometry/pose_grid.hpp"
 #include "semview/v1/scores.pb.h"
 #include "semview/view/score_model.hpp"
 
@@ -46,11 +42,5 @@ Result<Plan> plan_depth_score(Services& services,
                               const Request& request,
                               DepthModel model,
                               const v1::ScoreRequest& wire);
-
-/// The similarity of each of the headings 0, 120 / headings, … of the grid at a cell's centre.
-Result<std::vector<double>> depth_similarities(const DepthModel& model,
-                                               std::span<const CellIndex> cells,
-                                               int headings,
-                                               ThreadPool& pool);
 
 }  // namespace semview::server

@@ -8,6 +8,7 @@
 
 #include "depth_methods.hpp"
 #include "methods.hpp"
+#include "semview/field/field_score_source.hpp"
 #include "semview/map/cell_grid.hpp"
 #include "semview/observation/cell_posterior.hpp"
 #include "semview/protocol/envelope.hpp"
@@ -44,12 +45,22 @@ struct HeatMapping {
   }
 };
 
+Result<similarity::HeatMap> heat_of(const HeatMapping& heat,
+                                    std::span<const CellIndex> cells,
+                                    ThreadPool& pool) {
+  if (heat.prepared != nullptr) {
+    return similarity::heat_map(
+        *heat.prepared, heat.site->views(), cells, heat.headings, pool, {}, heat.cell_weight);
+  }
+  field::FieldScoreSource source(
+      heat.depth.likelihood, heat.depth.observation, heat.site->profile(), pool);
+  return similarity::heat_map(
+      source, cells, similarity::even_headings(heat.headings), {}, heat.cell_weight);
+}
+
 Status heat_part(HeatMapping& heat, std::size_t begin, std::size_t end, ThreadPool& pool) {
   const std::span<const CellIndex> cells = std::span(heat.cells).subspan(begin, end - begin);
-  SEMVIEW_TRY(
-      const similarity::HeatMap part,
-      similarity::heat_map(
-          *heat.prepared, heat.site->views(), cells, heat.headings, pool, {}, heat.cell_weight));
+  SEMVIEW_TRY(const similarity::HeatMap part, heat_of(heat, cells, pool));
   for (const CellIndex& cell : cells) {
     const std::size_t to = heat.place_of(cell);
     const int row = cell.iy - part.origin.iy;
@@ -60,32 +71,6 @@ Status heat_part(HeatMapping& heat, std::size_t begin, std::size_t end, ThreadPo
   }
   const std::lock_guard lock(heat.mutex);
   heat.origins += part.origins;
-  return {};
-}
-
-/// The same of a depth image. Probabilities are of all headings together, so that they take them
-/// all.
-Status heat_depth_part(HeatMapping& heat, std::size_t begin, std::size_t end, ThreadPool& pool) {
-  const std::span<const CellIndex> cells = std::span(heat.cells).subspan(begin, end - begin);
-  const int scored = heat.cell_weight ? PoseGrid::kHeadings : heat.headings;
-  SEMVIEW_TRY(const std::vector<double> similarities,
-              depth_similarities(heat.depth, cells, scored, pool));
-  const auto each = static_cast<std::size_t>(scored);
-  const auto step = static_cast<std::size_t>(scored / heat.headings);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto of_cell = std::span(similarities).subspan(i * each, each);
-    std::size_t best = 0;
-    for (std::size_t k = 0; k < each; k += step) {
-      if (of_cell[k] > of_cell[best]) best = k;
-    }
-    const std::size_t to = heat.place_of(cells[i]);
-    heat.similarity[to] = static_cast<float>(of_cell[best]);
-    heat.best_headings[to] =
-        static_cast<char>(best * static_cast<std::size_t>(PoseGrid::kHeadings / scored));
-    if (heat.cell_weight) {
-      heat.log_weight[to] = heat.cell_weight(of_cell.first<PoseGrid::kHeadings>());
-    }
-  }
   return {};
 }
 
@@ -220,11 +205,9 @@ Result<Plan> plan_heatmap(Services& services, const Request& request) {
       of_depth ? std::max<std::size_t>(kPosesPerChunk / each, 1) : kCellsPerChunk;
   for (std::size_t begin = 0; begin < heat->cells.size(); begin += at_once) {
     const std::size_t end = std::min(begin + at_once, heat->cells.size());
-    plan.chunks.push_back(
-        {(end - begin) * each, [heat, begin, end, of_depth, &pool = services.inline_pool] {
-           return of_depth ? heat_depth_part(*heat, begin, end, pool)
-                           : heat_part(*heat, begin, end, pool);
-         }});
+    plan.chunks.push_back({(end - begin) * each, [heat, begin, end, &pool = services.inline_pool] {
+                             return heat_part(*heat, begin, end, pool);
+                           }});
   }
   plan.finish = [heat] { return heat_reply(*heat); };
   return plan;

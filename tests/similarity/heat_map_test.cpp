@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -90,8 +91,10 @@ TEST_F(HeatMapTest, ASourceOfScoresGivesTheSame) {
   const CellWeight weight = [](std::span<const double, PoseGrid::kHeadings> similarities) {
     return similarities[0] + 2.0 * similarities[119];
   };
-  for (const int headings : {120, 24, 1}) {
-    const CellWeight cell_weight = headings == 120 ? weight : CellWeight();
+  for (const auto& [headings, cell_weight] : {std::pair(120, weight),
+                                              std::pair(24, weight),
+                                              std::pair(24, CellWeight()),
+                                              std::pair(1, CellWeight())}) {
     const auto swept = heat_map(*prepared_, views_, cells_, headings, pool_, {}, cell_weight);
     const auto asked = heat_map(*source_, cells_, even_headings(headings), {}, cell_weight);
     ASSERT_TRUE(swept && asked);
@@ -106,8 +109,6 @@ TEST_F(HeatMapTest, ASourceIsAskedAboutHeadingsOfTheGridAlone) {
   for (const std::vector<int>& headings : {std::vector<int>{}, {120}, {-1}, {3, 3}, {4, 3}}) {
     EXPECT_EQ(heat_map(*source_, cells_, headings).error().field, "headings");
   }
-  const CellWeight weight = [](std::span<const double> all) { return all[0]; };
-  EXPECT_FALSE(heat_map(*source_, cells_, even_headings(60), {}, weight));
   EXPECT_FALSE(heat_map(*source_, {}, even_headings(120)));
   const auto stopped =
       heat_map(*source_, cells_, even_headings(2), [](std::size_t, std::size_t) { return false; });

@@ -22,6 +22,15 @@ class FieldScoreSource final : public ScoreSource {
                    ThreadPool& pool)
       : likelihood_(std::move(likelihood)), profile_(profile), pool_(pool) {}
 
+  /// With an observation that the likelihood has prepared, which may be shared.
+  FieldScoreSource(std::shared_ptr<const FieldLikelihood> likelihood,
+                   std::shared_ptr<const FieldObservation> observation,
+                   const ViewProfile& profile,
+                   ThreadPool& pool)
+      : FieldScoreSource(std::move(likelihood), profile, pool) {
+    observation_ = std::move(observation);
+  }
+
   const ViewProfile& profile() const override { return profile_; }
 
   /// @errors kInvalidArgument: an observation without voxels; those of `FieldLikelihood::prepare`.

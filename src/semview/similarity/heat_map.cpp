@@ -70,13 +70,19 @@ void take_cell(const ScoreBatch& batch,
                const CellIndex& cell,
                const CellWeight& cell_weight,
                HeatMap& map) {
-  const auto best = std::ranges::max_element(sums);
-  if (*best == kNoView) return;
+  std::int32_t highest = kNoView;
+  int best = 0;
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    const std::int32_t sum = sums[cell_weight ? static_cast<std::size_t>(headings[i]) : i];
+    if (sum <= highest) continue;
+    highest = sum;
+    best = headings[i];
+  }
+  if (highest == kNoView) return;
   const int row = cell.iy - map.origin.iy;
   const int column = cell.ix - map.origin.ix;
-  map.similarity.at(row, column) = static_cast<float>(batch.similarity(*best));
-  map.best_heading.at(row, column) =
-      static_cast<std::uint8_t>(headings[static_cast<std::size_t>(best - sums.begin())]);
+  map.similarity.at(row, column) = static_cast<float>(batch.similarity(highest));
+  map.best_heading.at(row, column) = static_cast<std::uint8_t>(best);
   if (!cell_weight) return;
   std::array<double, PoseGrid::kHeadings> similarities{};
   std::ranges::transform(
@@ -168,10 +174,9 @@ Result<HeatMap> heat_map(ScoreSource& source,
   const bool on_grid =
       !headings.empty() && headings.front() >= 0 && headings.back() < PoseGrid::kHeadings &&
       std::ranges::adjacent_find(headings, std::ranges::greater_equal()) == headings.end();
-  if (!on_grid || (cell_weight && headings.size() != PoseGrid::kHeadings)) {
+  if (!on_grid) {
     return fail(Error{ErrorCode::kInvalidArgument,
-                      fmt::format("heat map: {} headings; expected increasing ones of the {}, and "
-                                  "all of them for weights",
+                      fmt::format("heat map: {} headings; expected some of the {}, increasing",
                                   headings.size(),
                                   PoseGrid::kHeadings),
                       "headings"});
@@ -179,20 +184,22 @@ Result<HeatMap> heat_map(ScoreSource& source,
   SEMVIEW_TRY(const Bounds bounds, bounds_of(requested));
   const std::vector<CellIndex> cells = distinct(requested);
   HeatMap map = unscored(bounds, cell_weight != nullptr);
+  const std::vector<int> all = even_headings(PoseGrid::kHeadings);
+  const std::span<const int> asked = cell_weight ? std::span<const int>(all) : headings;
   constexpr std::size_t kPosesAtOnce = 16'384;
-  const std::size_t at_once = std::max<std::size_t>(kPosesAtOnce / headings.size(), 1);
+  const std::size_t at_once = std::max<std::size_t>(kPosesAtOnce / asked.size(), 1);
   for (std::size_t first = 0; first < cells.size(); first += at_once) {
     const auto some = std::span(cells).subspan(first, std::min(at_once, cells.size() - first));
-    SEMVIEW_TRY(const ScoreBatch batch, source.score(at_headings(some, headings)));
-    if (batch.sums.size() != some.size() * headings.size()) {
+    SEMVIEW_TRY(const ScoreBatch batch, source.score(at_headings(some, asked)));
+    if (batch.sums.size() != some.size() * asked.size()) {
       return fail(ErrorCode::kInternal,
                   fmt::format("heat map: the score source answered {} sums of {} poses",
                               batch.sums.size(),
-                              some.size() * headings.size()));
+                              some.size() * asked.size()));
     }
     for (std::size_t i = 0; i < some.size(); ++i) {
       take_cell(batch,
-                std::span(batch.sums).subspan(i * headings.size(), headings.size()),
+                std::span(batch.sums).subspan(i * asked.size(), asked.size()),
                 headings,
                 some[i],
                 cell_weight,

@@ -55,7 +55,7 @@ Result<HeatMap> heat_map(const PreparedObservation& observation,
                          const CellWeight& cell_weight = {});
 
 /// The same of whatever `source` compares, an observation that it has been given; slower for views.
-/// @param headings  Of the PoseGrid, increasing. With a `cell_weight` all 120.
+/// @param headings  Of the PoseGrid, increasing. With a `cell_weight` all 120 are asked for.
 /// @errors as above, also where there are no headings, or not such; what `source` fails with.
 Result<HeatMap> heat_map(ScoreSource& source,
                          std::span<const CellIndex> cells,
