@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `semview localize --model` as a person or script calls it: a plan is all the map there is, the
 // depth camera drives through the building as it was designed.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -67,13 +68,7 @@ class LocalizeDepthTest : public semview::testing::SemviewRuns {
     return all;
   }
 
-  /// How far off the last pose is.
-  double end_error_m(const std::string& track) const {
-    const auto poses = io::read_tum(folder_ / track);
-    if (!poses || poses->empty()) return 1e9;
-    return distance_m(poses->back().pose, *io::interpolate(truth_, poses->back().stamp_s));
-  }
-
+  /// Over the whole track.
   double mean_error_m(const std::string& track) const {
     const auto poses = io::read_tum(folder_ / track);
     if (!poses || poses->empty()) return 1e9;
@@ -105,10 +100,17 @@ INSTANTIATE_TEST_SUITE_P(Models,
                          EachModelTest,
                          ::testing::Values("sdf", "sem", "sdf_sem", "mixed"));
 
-TEST_F(LocalizeDepthTest, FromAnUnknownStartTheRobotIsFound) {
+TEST_F(LocalizeDepthTest, FromAnUnknownStartTheRobotIsFoundInOneOfTwoLikeFlats) {
   record(20);
   ASSERT_EQ(run(localize("est.tum", {"--model", "sdf_sem", "--global"})), 0) << errors_;
-  EXPECT_LT(end_error_m("est.tum"), 0.3);
+  const auto poses = io::read_tum(folder_ / "est.tum");
+  ASSERT_TRUE(poses && !poses->empty());
+  const Pose2 truth = *io::interpolate(truth_, poses->back().stamp_s);
+  // The flats are half turns of each other, and depth with so wide sigmas does not tell which.
+  const Pose2 in_the_other{8.9 - truth.x_m, -17.8 - truth.y_m, wrap_angle(truth.yaw_rad + kPi)};
+  EXPECT_LT(
+      std::min(distance_m(poses->back().pose, truth), distance_m(poses->back().pose, in_the_other)),
+      0.3);
 }
 
 TEST_F(LocalizeDepthTest, OneSeedMakesOneTrackForAnyNumberOfThreads) {
