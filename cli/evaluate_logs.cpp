@@ -118,7 +118,7 @@ std::string tables(const paper2017::Results& results, bool each_image) {
             paper2017::summary_table(results, start));
     section(fmt::format("Spread of the estimates' errors, {} localization", how),
             paper2017::spread_table(results, start));
-    section(fmt::format("One idea off at a time, {} localization", how),
+    section(fmt::format("One idea off or on at a time, {} localization", how),
             paper2017::ablation_table(results, start));
     if (each_image) {
       section(fmt::format("Mean error in m at each image, {} localization", how),
