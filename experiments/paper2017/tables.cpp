@@ -72,7 +72,7 @@ Against against_baseline(const std::vector<double>& method, const std::vector<do
 
 std::string difference_text(const Against& against) {
   const std::string difference = fmt::format("{:+.3f}", against.difference_m);
-  if (!against.interval) return difference + " [-]";
+  if (!against.interval) return difference;
   return fmt::format(
       "{} [{:+.3f}, {:+.3f}]", difference, against.interval->low, against.interval->high);
 }
