@@ -106,7 +106,7 @@ TEST(DistanceFieldTest, DistancesOfAVolumeAreThoseToTheNearestVoxelOfTheClass) {
   Rng rng(8, "volume");
   const map::ColumnMap plan = room();
   const SemanticVolume volume = volume_of_room(plan, rng);
-  const auto field = distances_of_volume(volume, 0.2);
+  const auto field = distances_of_volume(volume, 0.2, SurfaceReach::kTruncation);
   ASSERT_TRUE(field.has_value()) << field.error().message;
   const reference::VolumeTruth truth(volume, 0.2, 1.0);
   for (const double z_m : {0.225, 1.225}) expect_true(**field, truth, z_m, 131, kInfinity);
@@ -116,7 +116,7 @@ TEST(DistanceFieldTest, BeyondItsReachAVolumeHasNothing) {
   Rng rng(8, "volume");
   const map::ColumnMap plan = room();
   const SemanticVolume volume = volume_of_room(plan, rng);
-  const auto field = distances_of_volume(volume, 0.2, 0.4);
+  const auto field = distances_of_volume(volume, 0.2, SurfaceReach::kTruncation, 0.4);
   ASSERT_TRUE(field.has_value()) << field.error().message;
   const reference::VolumeTruth truth(volume, 0.2, 1.0);
   expect_true(**field, truth, 1.525, 131, 0.4);
@@ -127,7 +127,7 @@ TEST(DistanceFieldTest, AVoxelThatWasNeverObservedHasTheTruncationDistance) {
   VoxelBlock& block = volume.add_block({0, 0, 0});
   block.weight[SemanticVolume::place_in_block({3, 2, 1})] = 1.0F;
   block.sdf_m[SemanticVolume::place_in_block({3, 2, 1})] = -0.05F;
-  const auto field = distances_of_volume(volume, 0.0, 6.0, 0.0);
+  const auto field = distances_of_volume(volume, 0.0, SurfaceReach::kTruncation, 6.0, 0.0);
   ASSERT_TRUE(field.has_value()) << field.error().message;
   std::vector<float> surface_m2(64);
   (*field)->sample_surface(0.15, surface_m2);
@@ -137,10 +137,35 @@ TEST(DistanceFieldTest, AVoxelThatWasNeverObservedHasTheTruncationDistance) {
   for (const float distance : surface_m2) EXPECT_EQ(distance, 0.35F * 0.35F);
 }
 
+TEST(DistanceFieldTest, WhereTheStoredDistancesEndTheNearestSurfaceVoxelCounts) {
+  SemanticVolume volume({0.1, 0.35}, room_classes());
+  VoxelBlock& block = volume.add_block({0, 0, 0});
+  block.weight[SemanticVolume::place_in_block({3, 2, 1})] = 1.0F;
+  block.sdf_m[SemanticVolume::place_in_block({3, 2, 1})] = -0.05F;
+  block.weight[SemanticVolume::place_in_block({4, 2, 1})] = 1.0F;
+  block.sdf_m[SemanticVolume::place_in_block({4, 2, 1})] = 0.07F;
+  const auto field = distances_of_volume(volume, 0.0, SurfaceReach::kEverywhere, 6.0, 0.0);
+  ASSERT_TRUE(field.has_value()) << field.error().message;
+  for (int layer = 0; layer < 8; ++layer) {
+    std::vector<float> surface_m2(64);
+    (*field)->sample_surface(0.1 * layer + 0.05, surface_m2);
+    for (int i = 0; i < 64; ++i) {
+      const double dx = 0.1 * (i % 8 - 3);
+      const double dy = 0.1 * (i / 8 - 2);
+      const double dz = 0.1 * (layer - 1);
+      double expected = std::max(0.35, std::sqrt(dx * dx + dy * dy + dz * dz));
+      if (layer == 1 && i == 19) expected = 0.05;
+      if (layer == 1 && i == 20) expected = 0.07;
+      EXPECT_NEAR(std::sqrt(surface_m2[static_cast<std::size_t>(i)]), expected, 1e-5)
+          << layer << ' ' << i;
+    }
+  }
+}
+
 TEST(DistanceFieldTest, AboveAndBelowAVolumeTheNearestLayerCounts) {
   Rng rng(8, "volume");
   const SemanticVolume volume = volume_of_room(room(), rng);
-  const auto field = distances_of_volume(volume, 0.2);
+  const auto field = distances_of_volume(volume, 0.2, SurfaceReach::kTruncation);
   ASSERT_TRUE(field.has_value()) << field.error().message;
   std::vector<float> lowest((*field)->grid().cells());
   std::vector<float> below(lowest.size());
@@ -154,12 +179,13 @@ TEST(DistanceFieldTest, AboveAndBelowAVolumeTheNearestLayerCounts) {
 
 TEST(DistanceFieldTest, AnEmptyVolumeAndAReachThatIsTooFarAreRefused) {
   SemanticVolume volume({0.05, 0.2}, room_classes());
-  EXPECT_FALSE(distances_of_volume(volume, 0.0).has_value());
+  EXPECT_FALSE(distances_of_volume(volume, 0.0, SurfaceReach::kTruncation).has_value());
   volume.add_block({0, 0, 0});
-  EXPECT_TRUE(distances_of_volume(volume, 0.0, 12.75).has_value());
-  EXPECT_FALSE(distances_of_volume(volume, 0.0, 12.8).has_value());
-  EXPECT_FALSE(distances_of_volume(volume, 0.0, std::nan("")).has_value());
-  EXPECT_FALSE(distances_of_volume(volume, 0.0, 6.0, -0.1).has_value());
+  EXPECT_TRUE(distances_of_volume(volume, 0.0, SurfaceReach::kTruncation, 12.75).has_value());
+  EXPECT_FALSE(distances_of_volume(volume, 0.0, SurfaceReach::kTruncation, 12.8).has_value());
+  EXPECT_FALSE(
+      distances_of_volume(volume, 0.0, SurfaceReach::kTruncation, std::nan("")).has_value());
+  EXPECT_FALSE(distances_of_volume(volume, 0.0, SurfaceReach::kTruncation, 6.0, -0.1).has_value());
 }
 
 }  // namespace

@@ -36,6 +36,23 @@ TEST(FieldModelTest, APixelsLossIsEquationThree) {
   }
 }
 
+TEST(FieldModelTest, AnOutlierCostsNoMoreThanItsShare) {
+  FieldModelConfig config;
+  config.outlier = 0.1;
+  ASSERT_TRUE(validate(config, 3).has_value());
+  const PixelLoss sem(config, {0.0, 1.0});
+  for (double s = 0.0; s < 6.0; s += 0.047) {
+    const double p = 0.1 + 0.9 * std::exp(-s * s / (2 * 1.5 * 1.5));
+    ASSERT_NEAR(sem(0.0F, static_cast<float>(s * s)), -std::log(p) * kUnitsPerNat, 2.0) << s;
+  }
+  EXPECT_NEAR(sem(0.0F, kFar), -std::log(0.1) * kUnitsPerNat, 5.0);
+  for (const double share : {-0.1, 1.0, std::nan("")}) {
+    config.outlier = share;
+    ASSERT_FALSE(validate(config, 3).has_value());
+    EXPECT_EQ(validate(config, 3).error().field, "outlier");
+  }
+}
+
 TEST(FieldModelTest, OneCueAloneIgnoresTheOtherDistance) {
   const FieldModelConfig config;
   EXPECT_EQ(PixelLoss(config, {1.0, 0.0})(1.0F, kFar), kUnitsPerNat / 8);

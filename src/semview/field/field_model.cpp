@@ -42,6 +42,13 @@ int units_of_distance(float squared_m2, float units_per_m2) {
       std::min(squared_m2 * units_per_m2 + 0.5F, static_cast<float>(kMaxLoss_units)));
 }
 
+/// -log(e^-a + e^-b), all in units.
+int sum_of(int a, int b) {
+  static const std::uint16_t* const closeness = closeness_table().data();
+  const int apart = std::abs(a - b);
+  return std::min(a, b) - (apart < kTableEnd_units ? closeness[apart] : 0);
+}
+
 bool is_share(double value) { return value >= 0.0 && value <= 1.0; }
 
 }  // namespace
@@ -72,6 +79,10 @@ Status validate(const FieldModelConfig& config, int map_classes) {
   if (!std::ranges::all_of(config.movable, is_share)) {
     return refuse("movable", "a class is movable by less than 0 or more than 1");
   }
+  if (!(config.outlier >= 0.0 && config.outlier <= 0.99)) {
+    return refuse("outlier",
+                  fmt::format("a share of {} outliers: expected 0 to 0.99", config.outlier));
+  }
   if (config.effective_pixels &&
       !(*config.effective_pixels > 0.0 && std::isfinite(*config.effective_pixels))) {
     return refuse(
@@ -94,19 +105,22 @@ PixelLoss::PixelLoss(const FieldModelConfig& config, const CueWeights& weights)
       sdf_units_per_m2_(units_per_m2(config.sigma_sdf_m)),
       sem_units_per_m2_(units_per_m2(config.sigma_sem_m)),
       sdf_units_(units_of_weight(weights.z_sdf)),
-      sem_units_(units_of_weight(weights.z_sem)) {}
+      sem_units_(units_of_weight(weights.z_sem)),
+      inlier_units_(units_of_weight(1.0 - config.outlier)),
+      outlier_units_(units_of_weight(config.outlier)) {}
 
 std::uint16_t PixelLoss::operator()(float sdf_m2, float class_m2) const {
-  static const std::uint16_t* const closeness = closeness_table().data();
-  const int sdf = units_of_distance(sdf_m2, sdf_units_per_m2_);
-  if (weights_.z_sem == 0.0) return static_cast<std::uint16_t>(sdf);
-  const int sem = units_of_distance(class_m2, sem_units_per_m2_);
-  if (weights_.z_sdf == 0.0) return static_cast<std::uint16_t>(sem);
-  const int a = sdf + sdf_units_;
-  const int b = sem + sem_units_;
-  const int apart = std::abs(a - b);
-  const int loss = std::min(a, b) - (apart < kTableEnd_units ? closeness[apart] : 0);
+  int loss = of_distances(sdf_m2, class_m2);
+  if (outlier_units_ > 0) loss = sum_of(loss + inlier_units_, outlier_units_);
   return static_cast<std::uint16_t>(std::clamp(loss, 0, kMaxLoss_units));
+}
+
+int PixelLoss::of_distances(float sdf_m2, float class_m2) const {
+  const int sdf = units_of_distance(sdf_m2, sdf_units_per_m2_);
+  if (weights_.z_sem == 0.0) return sdf;
+  const int sem = units_of_distance(class_m2, sem_units_per_m2_);
+  if (weights_.z_sdf == 0.0) return sem;
+  return sum_of(sdf + sdf_units_, sem + sem_units_);
 }
 
 }  // namespace semview::field

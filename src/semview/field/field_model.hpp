@@ -27,6 +27,10 @@ struct FieldModelConfig {
   /// α of section 4.1, how changeable each class of the map is: z_sem = α, z_sdf = 1 - α. In the
   /// order of the map's classes; empty: z_sdf and z_sem for all. `kSdfSem` only.
   std::vector<double> movable = {};
+  /// Share of pixels that show something the map does not know: (1 - outlier)·p + outlier in place
+  /// of p, so that what was moved or renamed costs no more than -log outlier. In [0, 0.99]; 0: the
+  /// paper's.
+  double outlier = 0.0;
   /// The product over pixels is taken to this many pixels' worth, > 0: neighbouring pixels are not
   /// independent. None: to all pixels, equation (2), where one pose's weight is e^10000 times the
   /// next one's.
@@ -73,11 +77,15 @@ class PixelLoss {
   std::uint16_t operator()(float sdf_m2, float class_m2) const;
 
  private:
+  int of_distances(float sdf_m2, float class_m2) const;
+
   CueWeights weights_;
   float sdf_units_per_m2_;
   float sem_units_per_m2_;
   int sdf_units_ = 0;  // -log z_sdf
   int sem_units_ = 0;
+  int inlier_units_ = 0;   // -log(1 - outlier)
+  int outlier_units_ = 0;  // -log outlier, 0 if there are none
 };
 
 }  // namespace semview::field

@@ -20,7 +20,7 @@ FieldCue cue_of(ScoreModel model) {
 Result<std::shared_ptr<const DistanceField>> distances_of_map(const map::SemanticMap& map) {
   if (!map.volume.empty()) {
     SEMVIEW_TRY(const StoredVolume stored, read_vdb(map.volume));
-    return distances_of_volume(stored.volume, map.ground_height_m);
+    return distances_of_volume(stored.volume, map.ground_height_m, SurfaceReach::kEverywhere);
   }
   if (const map::ColumnMap* plan = map.columns()) return distances_of_plan(*plan, map.classes);
   return fail(ErrorCode::kFailedPrecondition,

@@ -94,12 +94,13 @@ class VolumeDistances final : public DistanceField {
   }
 
   /// @return false if the fields would be too large.
-  bool add_fields(const SemanticVolume& volume) {
+  bool add_fields(const SemanticVolume& volume, SurfaceReach surface) {
     box_ = bounds_.box();
     if (box_.size() > kMaxFieldCells) return false;
     const auto truncation_m = static_cast<float>(shape_.truncation_m);
     surface_m2_.assign(box_.size(), truncation_m * truncation_m);
     for (const VoxelIndex& index : volume.block_indices()) add_block(index, *volume.block(index));
+    if (surface == SurfaceReach::kEverywhere) extend_surface();
     std::size_t cells = box_.size();
     for (ClassBox& of : boxes_) {
       if (of.voxels.empty()) continue;
@@ -139,6 +140,24 @@ class VolumeDistances final : public DistanceField {
     }
   }
 
+  /// Where the stored distances end.
+  void extend_surface() {
+    const auto voxel_m2 = static_cast<float>(shape_.voxel_m * shape_.voxel_m);
+    std::vector<std::uint8_t> passed(surface_m2_.size());
+    // Of two neighbours on both sides of a surface one is within half a voxel of it.
+    std::ranges::transform(surface_m2_, passed.begin(), [voxel_m2](float squared_m2) {
+      return static_cast<std::uint8_t>(squared_m2 <= voxel_m2 / 4.0F);
+    });
+    const auto truncation_m = static_cast<float>(shape_.truncation_m);
+    const float told_m2 = 0.98F * truncation_m * truncation_m;
+    const std::vector<float> squared = squared_distances(passed, box_);
+    for (std::size_t i = 0; i < squared.size(); ++i) {
+      if (surface_m2_[i] >= told_m2) {
+        surface_m2_[i] = std::max(surface_m2_[i], voxel_m2 * squared[i]);
+      }
+    }
+  }
+
   void transform(ClassBox& of) const {
     const Box box = of.bounds.box();
     std::vector<std::uint8_t> marked(box.size());
@@ -168,6 +187,7 @@ class VolumeDistances final : public DistanceField {
 
 Result<std::unique_ptr<DistanceField>> distances_of_volume(const SemanticVolume& volume,
                                                            double ground_height_m,
+                                                           SurfaceReach surface,
                                                            double reach_m,
                                                            double margin_m) {
   if (volume.block_count() == 0) {
@@ -191,7 +211,7 @@ Result<std::unique_ptr<DistanceField>> distances_of_volume(const SemanticVolume&
                                         ground_height_m,
                                         static_cast<int>(reach),
                                         static_cast<int>(std::ceil(margin_m / voxel_m)));
-  if (!distances->add_fields(volume)) {
+  if (!distances->add_fields(volume, surface)) {
     return fail(ErrorCode::kResourceExhausted,
                 fmt::format("distance fields of more than {} cells: fuse into larger voxels",
                             kMaxFieldCells));
