@@ -121,9 +121,12 @@ void add_evaluate_paper2023_verb(CLI::App& evaluate, int& exit_code) {
                    "Seeds of flats: 1..100 for results, 201..205 for choosing settings; default: "
                    "1..6")
       ->type_name("A..B,C,...");
-  verb->add_option("--methods",
-                   options->experiment.methods,
-                   "Some of sdf,sem_gt,sem_rcnn,sdf_sem_gt,sdf_sem_rcnn; default: all")
+  verb->add_option(
+          "--methods",
+          options->experiment.methods,
+          "Some of sdf,sem_gt,sem_rcnn,sdf_sem_gt,sdf_sem_rcnn as printed, ours_gt,ours_rcnn, and "
+          "of these with an idea off, _no_outliers, _no_sigma or _no_motion behind the name; "
+          "default: all but the last")
       ->type_name("METHOD,...")
       ->delimiter(',');
   verb->add_option("--particles", options->experiment.filter.particles, "Particles of the filter")

@@ -16,7 +16,7 @@ namespace semview::paper2023 {
 namespace {
 
 std::vector<Method> methods_of(const ExperimentConfig& config) {
-  if (config.methods.empty()) return all_methods();
+  if (config.methods.empty()) return default_methods();
   std::vector<Method> methods;
   for (const std::string& id : config.methods) methods.push_back(*find_method(id));
   return methods;
@@ -115,7 +115,7 @@ class Runner {
                   run_trials(recording,
                              flat.inside,
                              method,
-                             config_.filter,
+                             configured(method, config_.filter),
                              flat.maps[static_cast<std::size_t>(method.labels)],
                              seeds));
       for (int run = 0; run < drive.runs; ++run) {
@@ -176,7 +176,8 @@ std::string describe(const ExperimentConfig& config) {
                      config.changed_paths,
                      config.changed_runs,
                      config.seed) +
-         describe(config.world) + describe(config.filter);
+         describe(config.world) + describe(config.filter) +
+         "ours: outliers 0.2; sigma 1 m and 1 m; motion alpha 0.03 0.02 0.03 0.01\n";
 }
 
 Result<Experiment> run_experiment(const ExperimentConfig& config,

@@ -94,10 +94,14 @@ Pose2 at_wall(const Area& room, const Thing& thing, Rng& rng) {
 class Drawer {
  public:
   Drawer(const FlatConfig& config, std::uint64_t seed)
-      : config_(config), rng_(seed, "flat"), furniture_rng_(seed, "furniture") {}
+      : config_(config),
+        rng_(seed, "flat"),
+        furniture_rng_(seed, "furniture"),
+        names_rng_(seed, "names") {}
 
   Flat draw() {
     flat_.ceiling_m = config_.ceiling_m;
+    flat_.named = config_.named;
     flat_.inside = {0.0,
                     0.0,
                     config_.width_m + rng_.uniform(-config_.vary_m, config_.vary_m),
@@ -176,12 +180,14 @@ class Drawer {
     Thing thing;
     if (!place_thing(flat_, label, room, furniture_rng_, thing)) return;
     thing.id = static_cast<std::int32_t>(flat_.things.size()) + 1;
+    thing.named = names_rng_.uniform() < config_.named;
     flat_.things.push_back(thing);
   }
 
   const FlatConfig& config_;
   Rng rng_;
   Rng furniture_rng_;
+  Rng names_rng_;
   Flat flat_;
 };
 

@@ -17,6 +17,7 @@ struct FlatConfig {
   double vary_m = 0.3;   ///< either differs by up to this
   double ceiling_m = 2.5;
   double doorway_m = 0.95;  ///< doorways have no leaf
+  double named = 0.7;       ///< share of things of a class that is labelled
 };
 
 /// A rectangle of the floor.
@@ -30,6 +31,7 @@ struct Area {
 struct Flat {
   Area inside;
   double ceiling_m = 2.5;
+  double named = 1.0;                       ///< as of `FlatConfig`, for what is added later
   std::vector<Area> rooms;                  ///< living room, study, kitchen, bedroom
   std::vector<Area> doorways;               ///< what must stay clear
   std::vector<paper2017::Primitive> shell;  ///< walls, floor, ceiling: object 0, no name

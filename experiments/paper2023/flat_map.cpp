@@ -32,7 +32,7 @@ Result<std::shared_ptr<const field::DistanceField>> map_of(const Recording& surv
   SEMVIEW_TRY(const field::SemanticVolume volume, fuse_survey(survey, labels, pool));
   constexpr double kGround_m = 0.0;
   SEMVIEW_TRY(std::unique_ptr<field::DistanceField> distances,
-              field::distances_of_volume(volume, kGround_m));
+              field::distances_of_volume(volume, kGround_m, field::SurfaceReach::kEverywhere));
   return std::shared_ptr<const field::DistanceField>(std::move(distances));
 }
 

@@ -20,6 +20,17 @@ namespace semview::paper2023 {
 struct PoseNoiseConfig {
   double position_m = 0.01;              ///< σ of each coordinate
   double angle_rad = rad_from_deg(0.3);  ///< σ about each axis
+  /// σ of what stays about the same for `slow_frames` frames, as a mapper's drift between closed
+  /// loops does: along the ground, and about the vertical.
+  double slow_position_m = 0.17;
+  double slow_yaw_rad = rad_from_deg(4.0);
+  double slow_frames = 40.0;
+};
+
+/// How far the camera is from where it is said to be mounted: drawn once a drive.
+struct MountErrorConfig {
+  double position_m = 0.05;              ///< σ of each coordinate
+  double angle_rad = rad_from_deg(2.0);  ///< σ about each axis
 };
 
 struct WorldConfig {
@@ -30,6 +41,7 @@ struct WorldConfig {
   DriveConfig drive;
   OdometryConfig odometry;
   PoseNoiseConfig pose_noise;
+  MountErrorConfig mount_error;
 };
 
 /// Every setting, a line each part: equal configurations have equal texts.
@@ -42,8 +54,9 @@ struct DriveSeeds {
   std::uint64_t depth = 1;
   std::uint64_t labels = 1;  ///< of single views
   std::uint64_t poses = 1;
+  std::uint64_t mount = 1;
 
-  static DriveSeeds all(std::uint64_t seed) { return {seed, seed, seed, seed, seed}; }
+  static DriveSeeds all(std::uint64_t seed) { return {seed, seed, seed, seed, seed, seed}; }
 };
 
 struct RecordedFrame {
@@ -60,7 +73,7 @@ bool measures_anything(const RecordedFrame& frame);
 
 struct Recording {
   PinholeCamera camera;
-  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d base_from_camera = Eigen::Isometry3d::Identity();  ///< as it is said to be
   std::vector<RecordedFrame> frames;
 };
 

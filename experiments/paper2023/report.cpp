@@ -23,16 +23,22 @@ constexpr const char* kMapRenderer = "distance fields of its voxels";
 Status write_error_plot(const Experiment& experiment,
                         Session session,
                         const std::filesystem::path& path) {
-  // In the order of `all_methods()`, apart for the colour-blind too (Okabe, Ito 2008).
-  static constexpr std::array<Rgb, 5> kColours = {
-      {{0, 158, 115}, {230, 159, 0}, {213, 94, 0}, {0, 114, 178}, {86, 180, 233}}};
+  // In the order of `default_methods()`, apart for the colour-blind too (Okabe, Ito 2008).
+  static constexpr std::array<Rgb, 7> kColours = {{{0, 158, 115},
+                                                   {230, 159, 0},
+                                                   {213, 94, 0},
+                                                   {0, 114, 178},
+                                                   {86, 180, 233},
+                                                   {0, 0, 0},
+                                                   {204, 121, 167}}};
+  const std::vector<Method> methods = default_methods();
   picture::PlotPanel panel;
   panel.x_axis = "driven, m";
   for (const ErrorCurve& curve : error_curves(experiment, session)) {
+    const auto index = std::ranges::find(methods, curve.method, &Method::id) - methods.begin();
+    if (index == std::ssize(methods)) continue;  // of the ablation
     picture::PlotLine line;
     line.name = curve.method;
-    const auto index =
-        std::ranges::find(all_methods(), curve.method, &Method::id) - all_methods().begin();
     line.colour = kColours[static_cast<std::size_t>(index)];
     for (std::size_t i = 0; i < curve.distance_m.size(); ++i) {
       line.points.push_back({curve.distance_m[i], std::max(1e-3, curve.position_m[i])});

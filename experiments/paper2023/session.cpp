@@ -56,6 +56,7 @@ void add_things(std::size_t count, std::int32_t first_id, Rng& rng, Flat& flat) 
       const ThingClass label = kNewcomers[rng.below(kNewcomers.size())];
       if (!place_thing(flat, label, rng.below(flat.rooms.size()), rng, thing)) continue;
       thing.id = first_id + static_cast<std::int32_t>(i);
+      thing.named = rng.uniform() < flat.named;
       flat.things.push_back(thing);
       break;
     }
@@ -75,8 +76,10 @@ Flat change(const Flat& flat, const ChangeConfig& config, std::uint64_t seed) {
   for (std::size_t i = 0; i < share_of(flat, config.removed); ++i) {
     changed.things.erase(at(*next++));
   }
-  for (std::size_t i = 0; i < share_of(flat, config.renamed) && next != ids.end(); ++i) {
+  for (std::size_t renamed = 0; renamed < share_of(flat, config.renamed) && next != ids.end();) {
     Thing& thing = *at(*next++);
+    if (!thing.named) continue;
+    ++renamed;
     const auto other = 1 + rng.below(kThingClassCount - 1);  // steps on, never a whole round
     const auto label = (static_cast<std::uint64_t>(thing.name) - 1 + other) % kThingClassCount;
     thing.name = static_cast<ThingClass>(label + 1);

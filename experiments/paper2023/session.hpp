@@ -10,12 +10,12 @@ namespace semview::paper2023 {
 
 /// Shares of the things of the flat as it was mapped; no thing undergoes two changes.
 struct ChangeConfig {
-  double removed = 0.20;
-  double moved = 0.20;
-  double added = 0.15;
-  double renamed = 0.10;  ///< that look like another class
+  double removed = 0.08;
+  double moved = 0.08;
+  double added = 0.08;
+  double renamed = 0.03;  ///< that look like another class
   double min_move_m = 0.3;
-  double max_move_m = 1.5;
+  double max_move_m = 1.2;
 };
 
 /// The flat with whole numbers of things changed, to the nearest of each share; fewer moved or

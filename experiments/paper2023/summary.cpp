@@ -42,10 +42,12 @@ constexpr std::array<Printed, 5> kTable2 = {{
     {"sdf_sem_rcnn", 0.2222, 6.74, 0.1271, 0.0183},
 }};
 
-Printed printed(Session session, std::string_view method, bool with_failed) {
-  if (session == Session::kStatic && !with_failed && method == "sdf") return kTable1WithoutFailed;
+Printed printed(Session session, const Method& method, bool with_failed) {
+  if (session == Session::kStatic && !with_failed && method.id == "sdf") {
+    return kTable1WithoutFailed;
+  }
   const auto& table = session == Session::kStatic ? kTable1 : kTable2;
-  return *std::ranges::find(table, method, &Printed::method);
+  return *std::ranges::find(table, std::string_view(method.printed), &Printed::method);
 }
 
 double variance(const std::vector<double>& values) {
@@ -55,11 +57,14 @@ double variance(const std::vector<double>& values) {
   return values.empty() ? kNone : sum / static_cast<double>(values.size());
 }
 
-std::string row(const Summary& summary, const Printed& paper, bool with_failed) {
+std::string row(std::string_view method,
+                const Summary& summary,
+                const Printed& paper,
+                bool with_failed) {
   return fmt::format(
       "| {}{} | {} of {} | {:.3f} | {:.2f} | {:.4f} | {:.4f} | {:.3f} | {:.2f} | {:.4f} | {:.4f} "
       "| {:.2f} |\n",
-      paper.method,
+      method,
       with_failed ? "" : ", without failed",
       summary.failed,
       summary.runs,
@@ -118,15 +123,16 @@ Summary summary_of(const Experiment& experiment,
 std::string error_table(const Experiment& experiment, Session session) {
   std::string table =
       "| method | failed | position, m | variance, m²/100 | heading, rad | variance | printed: "
-      "position | variance | heading | variance | ours / printed |\n"
+      "position | variance | heading | variance | here / printed |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Method& method : all_methods()) {
     const Summary all = summary_of(experiment, session, method.id, true);
     if (all.runs == 0) continue;
-    table += row(all, printed(session, method.id, true), true);
+    table += row(method.id, all, printed(session, method, true), true);
     if (all.failed == 0 && !(session == Session::kStatic && method.id == "sdf")) continue;
-    table += row(summary_of(experiment, session, method.id, false),
-                 printed(session, method.id, false),
+    table += row(method.id,
+                 summary_of(experiment, session, method.id, false),
+                 printed(session, method, false),
                  false);
   }
   return table;
@@ -143,8 +149,8 @@ std::string ratio_table(const Experiment& experiment) {
     };
     if (std::isnan(ratio(true))) continue;
     // Printed against the static figure without the failed run.
-    const double paper = printed(Session::kChanged, method.id, false).position_m /
-                         printed(Session::kStatic, method.id, false).position_m;
+    const double paper = printed(Session::kChanged, method, false).position_m /
+                         printed(Session::kStatic, method, false).position_m;
     table += fmt::format(
         "| {} | {:.2f} | {:.2f} | {:.2f} |\n", method.id, ratio(true), ratio(false), paper);
   }

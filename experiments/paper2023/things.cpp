@@ -59,7 +59,7 @@ class Maker {
            double z_max_m) {
     const Pose2 pose = thing_.map_from_thing * Pose2{x_m, y_m, 0.0};
     solids_.push_back({shape,
-                       static_cast<ClassId>(thing_.name),
+                       thing_.named ? static_cast<ClassId>(thing_.name) : kNoHit,
                        thing_.id,
                        pose.x_m,
                        pose.y_m,

@@ -38,6 +38,7 @@ struct Thing {
   std::int32_t id = 0;  ///< from 1; the same in all sessions of a flat
   ThingClass shape = ThingClass::kBox;
   ThingClass name = ThingClass::kBox;  ///< what it is called; another class after a change of looks
+  bool named = true;                   ///< or of no class that anybody labels
   Pose2 map_from_thing;
   double length_m = 0.4;
   double width_m = 0.4;

@@ -129,10 +129,8 @@ Result<std::vector<std::vector<StopRecord>>> run_trials(
     std::shared_ptr<const field::DistanceField> map,
     const std::vector<std::uint64_t>& seeds) {
   ThreadPool pool(1);  // experiments run several of these at once
-  field::FieldModelConfig model = config.model;
-  model.cue = method.cue;
   SEMVIEW_TRY(const field::FieldLikelihood likelihood,
-              field::FieldLikelihood::make(std::move(map), model, kSliceBytes));
+              field::FieldLikelihood::make(std::move(map), config.model, kSliceBytes));
   const std::vector<CellIndex> cells = cells_of(inside);
   std::vector<localization::ParticleFilter> filters;
   for (const std::uint64_t seed : seeds) filters.push_back(filter_of(config, cells, seed));

@@ -24,7 +24,8 @@ struct StopRecord {
   bool operator==(const StopRecord&) const = default;
 };
 
-/// One execution a seed: nothing is known of where the robot is but the flat's outline.
+/// `config` is that of the method (`configured`). One execution a seed: nothing is known of where
+/// the robot is but the flat's outline.
 /// @errors those of the likelihood
 Result<std::vector<std::vector<StopRecord>>> run_trials(
     const Recording& recording,

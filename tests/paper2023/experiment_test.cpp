@@ -33,6 +33,23 @@ TEST(Paper2023ExperimentTest, BothCuesTogetherAreBetterThanTheMetricOneAlone) {
   EXPECT_EQ(both.failed, 0);
 }
 
+TEST(Paper2023MethodsTest, OursIsThePapersWithThreeIdeasAndEachCanBeLeftOut) {
+  const FilterConfig base;
+  const FilterConfig printed = configured(*find_method("sdf_sem_rcnn"), base);
+  EXPECT_EQ(printed.model.outlier, 0.0);
+  EXPECT_EQ(printed.model.sigma_sdf_m, 2.0);
+  EXPECT_EQ(printed.motion.alpha1, base.motion.alpha1);
+  const FilterConfig ours = configured(*find_method("ours_rcnn"), base);
+  EXPECT_GT(ours.model.outlier, 0.0);
+  EXPECT_LT(ours.model.sigma_sdf_m, 2.0);
+  EXPECT_LT(ours.motion.alpha1, base.motion.alpha1);
+  EXPECT_EQ(find_method("ours_rcnn")->printed, "sdf_sem_rcnn");
+  EXPECT_EQ(configured(*find_method("ours_rcnn_no_outliers"), base).model.outlier, 0.0);
+  EXPECT_EQ(configured(*find_method("ours_gt_no_sigma"), base).model.sigma_sem_m, 1.5);
+  EXPECT_EQ(configured(*find_method("ours_gt_no_motion"), base).motion.alpha3, base.motion.alpha3);
+  EXPECT_EQ(default_methods().size(), 7U);
+}
+
 TEST(Paper2023ExperimentTest, ASeedGivesTheSameRunsForAnyNumberOfThreads) {
   ExperimentConfig config = quick();
   config.methods = {"sem_rcnn"};
