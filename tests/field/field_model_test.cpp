@@ -45,7 +45,7 @@ TEST(FieldModelTest, AnOutlierCostsNoMoreThanItsShare) {
     const double p = 0.1 + 0.9 * std::exp(-s * s / (2 * 1.5 * 1.5));
     ASSERT_NEAR(sem(0.0F, static_cast<float>(s * s)), -std::log(p) * kUnitsPerNat, 2.0) << s;
   }
-  EXPECT_NEAR(sem(0.0F, kFar), -std::log(0.1) * kUnitsPerNat, 5.0);
+  EXPECT_NEAR(sem(0.0F, kFar), -std::log(0.1 + 0.9 * std::exp(-8.0)) * kUnitsPerNat, 2.0);
   for (const double share : {-0.1, 1.0, std::nan("")}) {
     config.outlier = share;
     ASSERT_FALSE(validate(config, 3).has_value());

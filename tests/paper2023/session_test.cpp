@@ -50,10 +50,10 @@ TEST(SessionTest, AsManyThingsChangeAsTheSharesSay) {
       return static_cast<std::size_t>(std::lround(share * static_cast<double>(flat.things.size())));
     };
     const Changes changes = between(flat, later, config);
-    EXPECT_EQ(changes.removed, count(0.20));
-    EXPECT_EQ(changes.moved, count(0.20));
-    EXPECT_EQ(changes.added, count(0.15));
-    EXPECT_EQ(changes.renamed, count(0.10));
+    EXPECT_EQ(changes.removed, count(config.removed));
+    EXPECT_EQ(changes.moved, count(config.moved));
+    EXPECT_EQ(changes.added, count(config.added));
+    EXPECT_EQ(changes.renamed, count(config.renamed));
     for (const Thing& thing : later.things) EXPECT_TRUE(fits(later, thing));
   }
 }
