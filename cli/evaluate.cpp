@@ -236,7 +236,12 @@ Status run(const Options& options) {
   if (options.final_within_m) {
     SEMVIEW_TRY_STATUS(check_limit("--final-within", *options.final_within_m));
   }
-  if (!options.svg.empty()) SEMVIEW_TRY_STATUS(io::check_output_file(options.svg));
+  std::vector<std::string> inputs = options.estimates;
+  inputs.push_back(options.particles);
+  if (!options.svg.empty()) {
+    SEMVIEW_TRY_STATUS(io::check_output_file(options.svg));
+    SEMVIEW_TRY_STATUS(io::check_is_no_input(options.svg, inputs));
+  }
   if (!options.png.empty()) SEMVIEW_TRY_STATUS(io::check_output_png(options.png));
   SEMVIEW_TRY(const Evaluation evaluation, evaluate(options));
   if (options.json) {

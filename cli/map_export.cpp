@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview map export`.
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -29,6 +30,7 @@ Status export_map(const Options& options) {
                 fmt::format("OUT: {}: expected a name that ends in .glb", options.output));
   }
   SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
+  SEMVIEW_TRY_STATUS(io::check_is_no_input(options.output, std::array{options.map}));
   SEMVIEW_TRY(const map::SemanticMap map, map::load_map(options.map, options.load));
   const map::TriangleMesh mesh =
       map.columns() != nullptr ? map::extrude(*map.columns()) : map.mesh()->mesh;

@@ -2,6 +2,7 @@
 #include "observe_options.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,6 +12,9 @@
 
 namespace semview::cli {
 namespace {
+
+/// Some 30 000 years; beyond it a double holds no milliseconds.
+constexpr double kLatestStamp_s = 1e12;
 
 constexpr double kMostEyeHeight_m = 100.0;  // as of views
 
@@ -89,8 +93,22 @@ Status check_observe_options(const ObserveOptions& options) {
                              options.eye_height_m,
                              kMostEyeHeight_m));
   }
-  if (!std::isfinite(options.stamp_s)) return usage("--stamp", "expected a finite number");
-  if (!options.overlay.empty()) SEMVIEW_TRY_STATUS(io::check_output_png(options.overlay));
+  if (!(std::abs(options.stamp_s) <= kLatestStamp_s)) {
+    return usage("--stamp",
+                 fmt::format("{:g}: expected seconds from {:g} to {:g}",
+                             options.stamp_s,
+                             -kLatestStamp_s,
+                             kLatestStamp_s));
+  }
+  if (!options.overlay.empty()) {
+    SEMVIEW_TRY_STATUS(io::check_output_png(options.overlay));
+    SEMVIEW_TRY_STATUS(io::check_is_no_input(options.overlay, options.images));
+  }
+  for (const char* file : {"labels.png", "confidence.png"}) {
+    SEMVIEW_TRY_STATUS(
+        io::check_is_no_input(std::filesystem::path(options.output) / file, options.images));
+  }
+  SEMVIEW_TRY_STATUS(io::check_holds_nothing_else(options.output, io::FolderKind::kObservation));
   return io::check_output_folder(options.output);
 }
 

@@ -2,6 +2,8 @@
 #include "semview/io/output_path.hpp"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,6 +66,56 @@ TEST(OutputPathTest, AFolderWithoutTheRightToWriteIsRefused) {
   EXPECT_FALSE(check_output_file(folder / "new.png"));
   EXPECT_FALSE(check_output_folder(folder / "new"));
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+}
+
+TEST(OutputPathTest, APartOfAMapRunLogOrObservationIsNotWrittenOver) {
+  const TemporaryFolder folder;
+  for (const char* const name : {"odometry.txt", "est.tum", "occupancy.png", "labels.png"}) {
+    folder.write(name, "");
+  }
+  EXPECT_TRUE(check_output_file(folder / "odometry.txt"));  // of no run log
+  folder.write("log.yaml", "");
+  folder.write("map.yaml", "");
+  for (const char* const name : {"odometry.txt", "log.yaml", "map.yaml", "labels.png"}) {
+    const Status refused = check_output_file(folder / name);
+    ASSERT_FALSE(refused) << name;
+    EXPECT_THAT(refused.error().message, HasSubstr("in this folder, and would be written over"));
+  }
+  EXPECT_TRUE(check_output_file(folder / "groundtruth.txt"));  // there is none
+  EXPECT_TRUE(check_output_file(folder / "est.tum"));
+  EXPECT_TRUE(check_output_file(folder / "occupancy.png"));  // drawn again from the map
+}
+
+TEST(OutputPathTest, AnInputUnderAnyNameIsAnInput) {
+  const TemporaryFolder folder;
+  const std::string photo = folder.write("a.png", "").string();
+  std::filesystem::create_symlink(photo, folder / "b.png");
+  const std::vector<std::string> inputs{"not there", photo};
+  EXPECT_FALSE(check_is_no_input(folder / "a.png", inputs));
+  EXPECT_FALSE(check_is_no_input(folder.path() / "." / "a.png", inputs));
+  EXPECT_FALSE(check_is_no_input(folder / "b.png", inputs));
+  EXPECT_TRUE(check_is_no_input(folder / "c.png", inputs));
+}
+
+TEST(OutputPathTest, AFolderOfSomethingElseIsLeftAlone) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(check_holds_nothing_else(folder / "new", FolderKind::kMap));
+  EXPECT_TRUE(check_holds_nothing_else(folder.path(), FolderKind::kObservation));
+  folder.write("labels.png", "");
+  EXPECT_TRUE(check_holds_nothing_else(folder.path(), FolderKind::kRunLog));
+  for (const FolderKind kind : {FolderKind::kMap, FolderKind::kObservation}) {
+    const Status refused = check_holds_nothing_else(folder.path(), kind);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("labels.png: is there already"));
+  }
+  folder.write("observation.yaml", "");
+  EXPECT_TRUE(check_holds_nothing_else(folder.path(), FolderKind::kObservation));
+  for (const FolderKind kind : {FolderKind::kMap, FolderKind::kRunLog}) {
+    const Status refused = check_holds_nothing_else(folder.path(), kind);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                HasSubstr("has observation.yaml, expected a new or empty folder for the"));
+  }
 }
 
 // Linux's full device stands for a full disk.

@@ -194,5 +194,21 @@ TEST_F(ObserveVerbTest, WrongUseIsSaidInOneLine) {
   EXPECT_THAT(errors_, HasSubstr("--columns: 7 columns"));
 }
 
+TEST_F(ObserveVerbTest, NothingOfThePersonsIsWrittenOver) {
+  const std::string room = photo("room.png", 0, 1);
+  const auto observe = [&](const testing::Arguments& more) {
+    testing::Arguments all{"observe", room, "--equirectangular"};
+    all.insert(all.end(), more.begin(), more.end());
+    EXPECT_EQ(run(all), 1) << output_;
+  };
+  observe({"-o", file("obs"), "--overlay", room});
+  EXPECT_THAT(errors_, HasSubstr("room.png: is read as input, and would be written over"));
+  std::filesystem::create_directory(folder_ / "map");
+  folder_.write("map/map.yaml", "image: x");
+  observe({"-o", file("map")});
+  EXPECT_THAT(errors_, HasSubstr("map: has map.yaml, expected a new or empty folder"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "map" / "labels.png"));
+}
+
 }  // namespace
 }  // namespace semview

@@ -2,10 +2,13 @@
 #include "semview/io/output_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -14,6 +17,60 @@ namespace semview::io {
 namespace {
 
 using Path = std::filesystem::path;
+
+struct FolderFormat {
+  FolderKind kind;
+  std::string_view what;
+  std::string_view marker;  ///< the file that makes a folder one
+  std::vector<std::string_view> files;
+  std::string_view drawn;  ///< a file that is made of the others: it may be made again
+};
+
+const std::array<FolderFormat, 3>& folder_formats() {
+  static const std::array<FolderFormat, 3> kFormats{
+      {{FolderKind::kMap, "map", "map.yaml", {"labels.png", "objects.geojson"}, "occupancy.png"},
+       {FolderKind::kRunLog,
+        "run log",
+        "log.yaml",
+        {"frames.csv", "odometry.txt", "groundtruth.txt"},
+        {}},
+       {FolderKind::kObservation,
+        "observation",
+        "observation.yaml",
+        {"labels.png", "confidence.png"},
+        {}}}};
+  return kFormats;
+}
+
+bool is_there(const Path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+tl::unexpected<Error> would_be_lost(const Path& path,
+                                    const std::string& why,
+                                    std::string_view remedy) {
+  return fail(Error{ErrorCode::kAlreadyExists,
+                    fmt::format("{}: {}", path.string(), why),
+                    {},
+                    std::string(remedy)});
+}
+
+/// Refuses a file that a folder of ours consists of.
+Status check_is_no_part(const Path& path, const Path& folder) {
+  if (!is_there(path)) return {};
+  const std::string name = path.filename().string();
+  for (const FolderFormat& format : folder_formats()) {
+    const bool part =
+        name == format.marker || std::ranges::find(format.files, name) != format.files.end();
+    if (!part || !is_there(folder / format.marker)) continue;
+    return would_be_lost(
+        path,
+        fmt::format("is part of the {} in this folder, and would be written over", format.what),
+        "name another file");
+  }
+  return {};
+}
 
 tl::unexpected<Error> refuse(const Path& path, std::string_view why, std::string remedy) {
   return fail(Error{ErrorCode::kUnavailable,
@@ -65,7 +122,38 @@ Status check_output_file(const Path& path) {
   if (std::filesystem::exists(path, ignored) && ::access(path.c_str(), W_OK) != 0) {
     return cannot_write(path, errno);
   }
+  SEMVIEW_TRY_STATUS(check_is_no_part(path, folder));
   return check_folder(path, folder);
+}
+
+Status check_is_no_input(const Path& path, std::span<const std::string> inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(path, input, ignored)) continue;
+    return would_be_lost(path, "is read as input, and would be written over", "name another file");
+  }
+  return {};
+}
+
+Status check_holds_nothing_else(const Path& path, FolderKind kind) {
+  const auto& formats = folder_formats();
+  const auto& own = *std::ranges::find(formats, kind, &FolderFormat::kind);
+  constexpr std::string_view kRemedy = "name a new or empty folder";
+  for (const FolderFormat& other : formats) {
+    if (other.kind == kind || !is_there(path / other.marker)) continue;
+    return would_be_lost(
+        path,
+        fmt::format("has {}, expected a new or empty folder for the {}", other.marker, own.what),
+        {});
+  }
+  if (is_there(path / own.marker)) return {};
+  std::vector<std::string_view> files = own.files;
+  if (!own.drawn.empty()) files.push_back(own.drawn);
+  for (const std::string_view file : files) {
+    if (!is_there(path / file)) continue;
+    return would_be_lost(path / file, "is there already, and would be written over", kRemedy);
+  }
+  return {};
 }
 
 Status check_output_png(const Path& path) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "semview/core/check.hpp"
+#include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/range_png.hpp"
 #include "semview/io/text_file.hpp"
@@ -193,6 +194,7 @@ Result<RunLogWriter> RunLogWriter::create(const std::filesystem::path& directory
                 fmt::format("{}: holds a run log already, expected a new or empty folder",
                             directory.string()));
   }
+  SEMVIEW_TRY_STATUS(check_holds_nothing_else(directory, FolderKind::kRunLog));
   std::filesystem::create_directories(directory, error);
   if (error) {
     return fail(ErrorCode::kUnavailable,

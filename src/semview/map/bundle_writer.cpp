@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "semview/io/output_path.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/text_file.hpp"
 #include "semview/map/occupancy.hpp"
@@ -108,6 +109,7 @@ Status write_bundle(const BundleText& text,
     return fail(ErrorCode::kAlreadyExists,
                 fmt::format("{}: exists already; name another folder", yaml.string()));
   }
+  SEMVIEW_TRY_STATUS(io::check_holds_nothing_else(directory, io::FolderKind::kMap));
   std::filesystem::create_directories(directory, error);
   if (error) {
     return fail(ErrorCode::kUnavailable,
