@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "export_folder.hpp"
 #include "guard.hpp"
 #include "hand_matrix.hpp"
 #include "raw_classes.hpp"
 #include "row_map.hpp"
-#include "semview/io/output_path.hpp"
 #include "semview/io/run_log.hpp"
 #include "semview/io/text_file.hpp"
 #include "semview/io/trajectory.hpp"
@@ -111,13 +111,7 @@ class Exporter {
   std::string list_ = "row,world,map,map_stacked,log,start,estimate\n";
 };
 
-Status check(const ExperimentConfig& config, const fs::path& directory) {
-  if (fs::exists(directory / "input")) {
-    return fail(Error{ErrorCode::kAlreadyExists,
-                      fmt::format("{}: holds an export already", directory.string()),
-                      "--export",
-                      "choose another --export"});
-  }
+Status check(const ExperimentConfig& config) {
   // Nobody's results: worlds that a method may learn from are given away as well.
   const bool training = std::ranges::all_of(config.worlds, [](std::uint64_t world) {
     return world >= kFirstTrainingWorld && world <= kLastTrainingWorld;
@@ -125,7 +119,7 @@ Status check(const ExperimentConfig& config, const fs::path& directory) {
   if (!training) {
     if (const auto use = check_worlds(config.worlds); !use) return fail(use.error());
   }
-  return io::check_output_folder(directory);
+  return {};
 }
 
 }  // namespace
@@ -152,10 +146,11 @@ Status export_worlds(const ExperimentConfig& config,
                      const std::filesystem::path& directory,
                      const std::function<void(std::size_t, std::size_t)>& progress) {
   SEMVIEW_TRY(const std::vector<Row> rows, rows_of(config));
-  SEMVIEW_TRY_STATUS(check(config, directory));
+  SEMVIEW_TRY_STATUS(check(config));
+  SEMVIEW_TRY(const ExportFolder folder, ExportFolder::begin(directory));
   SEMVIEW_TRY(similarity::WeightMatrix hand,
               similarity::parse_weight_matrix(kHandMatrix, "the built-in matrix"));
-  Exporter exporter(directory, std::move(hand));
+  Exporter exporter(folder.unfinished(), std::move(hand));
   std::size_t done = 0;
   for (const std::uint64_t seed : config.worlds) {
     const World world = make_world(config.world, WorldSeeds::all(seed));
@@ -164,7 +159,8 @@ Status export_worlds(const ExperimentConfig& config,
       progress(++done, rows.size() * config.worlds.size());
     }
   }
-  return exporter.finish();
+  SEMVIEW_TRY_STATUS(exporter.finish());
+  return folder.finish();
 }
 
 }  // namespace semview::paper2017

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "semview/io/output_path.hpp"
+#include "experiments/paper2017/export_folder.hpp"
 #include "semview/io/png.hpp"
 #include "semview/io/run_log.hpp"
 #include "semview/io/text_file.hpp"
@@ -113,14 +113,8 @@ Status export_recordings(const ExportConfig& config,
                          const std::filesystem::path& directory,
                          const std::function<void(std::size_t, std::size_t)>& progress) {
   SEMVIEW_TRY_STATUS(validate(config));
-  std::error_code ignored;
-  if (fs::exists(directory / "input", ignored)) {
-    return fail(Error{ErrorCode::kAlreadyExists,
-                      fmt::format("{}: holds an export already", directory.string()),
-                      "--export",
-                      "choose another --export"});
-  }
-  SEMVIEW_TRY_STATUS(io::check_output_folder(directory));
+  SEMVIEW_TRY(const auto folder, paper2017::ExportFolder::begin(directory));
+  const fs::path& unfinished = folder.unfinished();
   ThreadPool pool(config.threads);
   const std::vector<Entry> entries = entries_of(config);
   std::string list = "world,session,path,log,estimate\n";
@@ -128,10 +122,11 @@ Status export_recordings(const ExportConfig& config,
   for (const Entry& entry : entries) {
     const std::string place = fmt::format("world_{}/{}", entry.world, entry.name());
     const Recording recording = entry.record(config.world, pool);
-    fs::create_directories((directory / "truth" / place).parent_path(), ignored);
-    fs::create_directories((directory / "input" / place).parent_path(), ignored);
-    SEMVIEW_TRY_STATUS(write_log(recording, entry.path < 0, directory / "input" / place));
-    SEMVIEW_TRY_STATUS(io::write_tum(directory / "truth" / (place + ".tum"),
+    std::error_code ignored;
+    fs::create_directories((unfinished / "truth" / place).parent_path(), ignored);
+    fs::create_directories((unfinished / "input" / place).parent_path(), ignored);
+    SEMVIEW_TRY_STATUS(write_log(recording, entry.path < 0, unfinished / "input" / place));
+    SEMVIEW_TRY_STATUS(io::write_tum(unfinished / "truth" / (place + ".tum"),
                                      track(recording, &RecordedFrame::map_from_base)));
     list += entry.path < 0 ? fmt::format("{},survey,,{},\n", entry.world, place)
                            : fmt::format("{},{},{},{},{}.tum\n",
@@ -142,7 +137,8 @@ Status export_recordings(const ExportConfig& config,
                                          place);
     progress(++done, entries.size());
   }
-  return io::write_text_file(directory / "input" / "list.csv", list);
+  SEMVIEW_TRY_STATUS(io::write_text_file(unfinished / "input" / "list.csv", list));
+  return folder.finish();
 }
 
 }  // namespace semview::paper2023

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/paper2017/export_folder.hpp"
 #include "experiments/paper2017/row_map.hpp"
 #include "semview/map/semantic_map.hpp"
 #include "support/temporary_folder.hpp"
@@ -52,6 +53,19 @@ TEST(WorldExportTest, NothingIsWrittenOverOrMixed) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
   std::filesystem::create_directories(folder / "out" / "input");
   EXPECT_THAT(message({1}), HasSubstr("holds an export already"));
+}
+
+TEST(WorldExportTest, WhatWasStoppedIsMadeAgainAndNeverLooksWhole) {
+  const testing::TemporaryFolder folder;
+  const auto stopped = ExportFolder::begin(folder / "out");
+  ASSERT_TRUE(stopped) << stopped.error().message;
+  std::filesystem::create_directories(stopped->unfinished() / "input" / "half a map");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "input"));
+  const Status exported = export_worlds(of_worlds({101}), folder / "out", say_nothing);
+  ASSERT_TRUE(exported) << exported.error().message;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "input" / "list.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "input" / "half a map"));
+  EXPECT_FALSE(std::filesystem::exists(stopped->unfinished()));
 }
 
 }  // namespace
