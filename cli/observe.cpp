@@ -137,6 +137,22 @@ double seen_width_deg(const LabelImage& labels) {
   return 360.0 * seen / labels.columns();
 }
 
+/// A rig with wrong numbers shows nearly nothing, and what is left is still labelled.
+void warn_of_small_view(const ObserveOptions& options, const Observed& observed) {
+  constexpr double kOddShare = 0.005;
+  const auto& confidence = observed.panorama.segmentation.confidence.pixels();
+  const auto seen = static_cast<double>(
+      std::ranges::count_if(confidence, [](std::uint8_t value) { return value > 0; }));
+  const double sphere_px =
+      0.5 * observed.panorama.camera.columns * observed.panorama.camera.columns;
+  if (seen >= kOddShare * sphere_px) return;
+  log_warning(
+      fmt::format("{}: the cameras show {:.2f} % of the sphere; are their focal lengths "
+                  "(pixels) and distortions right?",
+                  options.camera.empty() ? options.images.front() : options.camera,
+                  100.0 * seen / sphere_px));
+}
+
 nlohmann::ordered_json summary_of(const ObserveOptions& options,
                                   const Observed& observed,
                                   double seconds) {
@@ -202,6 +218,7 @@ Status observe(const ObserveOptions& options) {
   SEMVIEW_TRY(const Observed observed,
               options.labels ? observe_labels(options, rig) : observe_photos(options, rig));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  warn_of_small_view(options, observed);
   SEMVIEW_TRY_STATUS(io::write_observation(options.output,
                                            {observed.classes, observed.panorama.camera},
                                            observed.panorama.segmentation.labels,

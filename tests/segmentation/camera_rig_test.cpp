@@ -65,6 +65,13 @@ TEST(CameraRigTest, FaultsNameFileAndLine) {
   EXPECT_THAT(error_of("  - equirectangular: {elevation_min_deg: -90, elevation_max_deg: 90}\n"
                        "    distortion: {model: none}\n"),
               HasSubstr("no distortion"));
+  const auto with_fx = [](const std::string& fx) {
+    return "  - pinhole: {width: 640, height: 480, fx: " + fx + ", fy: 500, cx: 320, cy: 240}\n";
+  };
+  EXPECT_EQ(error_of(with_fx("500")), "no error");
+  EXPECT_THAT(error_of(with_fx("1e-9")),
+              HasSubstr("rig.yaml:3: fx 1e-09 px gives 640 px no field of view, expected 6.4 to"));
+  EXPECT_THAT(error_of(with_fx("1e9")), HasSubstr("fx 1e+09 px"));
   EXPECT_THAT(error_of("  -\n" + kPinhole + "    yaw: 3\n"), HasSubstr("unknown key"));
 }
 

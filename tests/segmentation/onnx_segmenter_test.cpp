@@ -156,6 +156,18 @@ TEST(OnnxSegmenterTest, NumbersThatAreNoneAreAnError) {
               HasSubstr("expected finite numbers"));
 }
 
+TEST(OnnxSegmenterTest, LogitsAreNoProbabilities) {
+  const auto network = [](float bias) {
+    return onnx_convolution(std::vector<float>(6, 0.0F), std::vector<float>{0.25F, bias}, 8, 8);
+  };
+  EXPECT_EQ(load_error(network(0.75F), "probabilities"), "no error");
+  for (const float logit : {-0.5F, 7.0F}) {
+    EXPECT_THAT(load_error(network(logit), "probabilities"),
+                HasSubstr("expected probabilities from 0 to 1; is it `output: logits`?"));
+    EXPECT_EQ(load_error(network(logit)), "no error");
+  }
+}
+
 TEST(OnnxSegmenterTest, LabelsAreTakenAsTheyAre) {
   const std::vector<float> weights{1.0F / 255.0F, 0.0F, 0.0F};
   const auto network = [&](float bias) {

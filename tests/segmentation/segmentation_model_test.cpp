@@ -53,6 +53,10 @@ TEST(SegmentationModelTest, FaultsNameFileAndLine) {
               HasSubstr("model.yaml:3: width 0, expected 1 to 4096"));
   EXPECT_THAT(error_of(kHead + "input: {width: 8, height: 4, channels: grb}\n" + kTail),
               HasSubstr("channels 'grb', expected rgb or bgr"));
+  for (const std::string scale : {"0", "1e-9", "1e9", "[1, 0, 1]"}) {
+    EXPECT_THAT(error_of(kHead + "input: {width: 8, height: 4, scale: " + scale + "}\n" + kTail),
+                HasSubstr("expected 1e-06 to 1000"));
+  }
   EXPECT_THAT(error_of(kHead + kInput + "output: masks\nclasses: [a]\n"),
               HasSubstr("model.yaml:4: output 'masks'"));
   EXPECT_THAT(error_of(kHead + kInput + "output: logits\nclasses: [a, a]\n"),

@@ -85,6 +85,26 @@ Result<PartialPanorama> parse_panorama(const YamlNode& node) {
   return camera;
 }
 
+namespace {
+
+/// Refuses a picture of less than 0.06 degrees, or of nearly the half space before the camera.
+Status check_focal_length(const YamlNode& node,
+                          std::string_view key,
+                          double focal_px,
+                          int side_px) {
+  const double least_px = side_px / 100.0;
+  const double most_px = side_px * 1000.0;
+  if (focal_px >= least_px && focal_px <= most_px) return {};
+  return node.error(fmt::format("{} {:g} px gives {} px no field of view, expected {:g} to {:g}",
+                                key,
+                                focal_px,
+                                side_px,
+                                least_px,
+                                most_px));
+}
+
+}  // namespace
+
 Result<PinholeCamera> parse_pinhole(const YamlNode& node) {
   SEMVIEW_TRY_STATUS(node.expect_keys({"width", "height", "fx", "fy", "cx", "cy"}));
   MountedPinhole mounted;
@@ -108,6 +128,8 @@ Result<PinholeCamera> parse_pinhole(const YamlNode& node) {
   SEMVIEW_TRY(camera.cx_px, number("cx"));
   SEMVIEW_TRY(camera.cy_px, number("cy"));
   if (const Status valid = validate(mounted); !valid) return node.error(valid.error().message);
+  SEMVIEW_TRY_STATUS(check_focal_length(node, "fx", camera.fx_px, camera.columns));
+  SEMVIEW_TRY_STATUS(check_focal_length(node, "fy", camera.fy_px, camera.rows));
   return camera;
 }
 

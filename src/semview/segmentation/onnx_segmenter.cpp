@@ -121,6 +121,19 @@ Result<Segmentation> nearest_labels(const SegmentationModel& model,
   return result;
 }
 
+/// Logits called probabilities would make labels of any confidence.
+Status check_probabilities(const SegmentationModel& model, std::span<const float> values) {
+  constexpr float kRounding = 1e-3F;
+  const auto bad = std::ranges::find_if(
+      values, [](float value) { return value < -kRounding || value > 1.0F + kRounding; });
+  if (bad == values.end()) return {};
+  return fail(ErrorCode::kFailedPrecondition,
+              fmt::format("{}: the output holds {:g}, expected probabilities from 0 to 1; is it "
+                          "`output: logits`?",
+                          model.network.string(),
+                          *bad));
+}
+
 }  // namespace
 
 struct OnnxSegmenter::Parts {
@@ -161,7 +174,18 @@ Status OnnxSegmenter::Parts::check_shapes() const {
   std::vector<std::vector<cv::dnn::MatShape>> inputs;
   std::vector<std::vector<cv::dnn::MatShape>> outputs;
   const cv::dnn::MatShape input{1, 3, model.input_rows, model.input_columns};
-  net.getLayersShapes(input, layers, inputs, outputs);
+  try {
+    net.getLayersShapes(input, layers, inputs, outputs);
+  } catch (const std::exception& error) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("{}: takes no pictures of width {} and height {} (input of model.yaml), "
+                    "expected the size that the network was made for: {}",
+                    model.network.string(),
+                    model.input_columns,
+                    model.input_rows,
+                    reason_of(error)));
+  }
   const int wanted = cv::dnn::Net(net).getLayerId(output);
   const auto at = std::ranges::find(layers, wanted);
   if (at == layers.end()) return {};  // then the first picture tells
@@ -250,6 +274,9 @@ Result<Segmentation> OnnxSegmenter::segment(const RgbImage& image) {
         ErrorCode::kFailedPrecondition,
         fmt::format(
             "{}: the output holds {:g}, expected finite numbers", model.network.string(), *bad));
+  }
+  if (model.output == NetworkOutput::kProbabilities) {
+    SEMVIEW_TRY_STATUS(check_probabilities(model, values));
   }
   const ChannelPlanes planes{
       values, static_cast<int>(model.channels.size()), size.first, size.second};

@@ -2,6 +2,7 @@
 #include "semview/segmentation/segmentation_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -19,6 +20,8 @@ using io::YamlNode;
 
 constexpr int kFormat = 1;
 constexpr std::string_view kFile = "model.yaml";
+constexpr double kSmallestScale = 1e-6;
+constexpr double kLargestScale = 1e3;
 
 /// A sequence of three numbers, or one that stands for all of them.
 Result<std::array<double, 3>> three_numbers(const YamlNode& owner,
@@ -43,6 +46,21 @@ Result<int> side_px(const YamlNode& owner, std::string_view key) {
   return static_cast<int>(pixels);
 }
 
+/// What a pixel's value from 0 to 255 is multiplied by: of the size of 1 / 255 or of 1.
+Result<std::array<double, 3>> scale_of(const YamlNode& input) {
+  SEMVIEW_TRY(const auto scale, three_numbers(input, "scale", 1.0));
+  for (const double factor : scale) {
+    if (std::abs(factor) >= kSmallestScale && std::abs(factor) <= kLargestScale) continue;
+    return input.at("scale")->error(
+        fmt::format("scale {:g}, expected {:g} to {:g}; 1/255 = 0.00392 "
+                    "makes values from 0 to 1",
+                    factor,
+                    kSmallestScale,
+                    kLargestScale));
+  }
+  return scale;
+}
+
 Status read_input(const YamlNode& input, SegmentationModel& model) {
   SEMVIEW_TRY_STATUS(input.expect_keys({"width", "height", "channels", "mean", "scale"}));
   SEMVIEW_TRY(model.input_columns, side_px(input, "width"));
@@ -53,7 +71,7 @@ Status read_input(const YamlNode& input, SegmentationModel& model) {
   }
   model.bgr = channels == "bgr";
   SEMVIEW_TRY(model.mean, three_numbers(input, "mean", 0.0));
-  SEMVIEW_TRY(model.scale, three_numbers(input, "scale", 1.0));
+  SEMVIEW_TRY(model.scale, scale_of(input));
   return {};
 }
 
