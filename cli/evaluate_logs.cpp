@@ -17,6 +17,7 @@
 #include "experiments/paper2017/revision.hpp"
 #include "experiments/paper2017/summary.hpp"
 #include "experiments/paper2017/tables.hpp"
+#include "learned_from.hpp"
 #include "map_weights.hpp"
 #include "recordings.hpp"
 #include "semview/core/clock.hpp"
@@ -62,6 +63,7 @@ Result<paper2017::RecordingWeights> weights_of(const Options& options,
               choose_weights(options.weights, options.map, shipped, observed, map.classes));
   std::optional<similarity::WeightMatrix> learned;
   if (!options.learned.empty()) {
+    SEMVIEW_TRY_STATUS(check_not_learned_from(options.learned, options.logs));
     SEMVIEW_TRY(learned, read_weights(options.learned, observed, map.classes));
     Status fits = learned->check(observed, map.classes);
     if (!fits) return with_context(std::move(fits), options.learned);

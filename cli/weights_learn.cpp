@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// `semview weights learn`.
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "learned_from.hpp"
 #include "picture_set.hpp"
 #include "semview/core/log.hpp"
 #include "semview/io/output_path.hpp"
@@ -114,21 +116,45 @@ Status learn_from_log(const std::string& folder, const PanoramaCamera& profile, 
                     "seen",
                     folder));
   }
+  std::size_t without_truth = 0;
   for (std::size_t i = 0; i < log.frames.size(); ++i) {
     SEMVIEW_TRY(const Observation observation, io::read_frame(log, i, profile));
     const auto pose = io::interpolate(*log.groundtruth, observation.stamp_s);
-    if (!pose) continue;  // before the first or after the last of them
+    if (!pose) {  // before the first or after the last of them
+      ++without_truth;
+      continue;
+    }
     Status added = lesson.add(observation, *pose, fmt::format("{}, frame {}", folder, i + 1));
     if (!added) {
       return with_context(std::move(added), folder);
     }
   }
+  if (without_truth > 0) {
+    log_warning(
+        fmt::format("{}: {} of {} frames are not learned from: its ground truth does not "
+                    "reach them",
+                    folder,
+                    without_truth,
+                    log.frames.size()));
+  }
   return {};
+}
+
+/// The module names its own fields; people typed options.
+Status check_learner(const similarity::WeightLearnerConfig& config) {
+  const Status valid = similarity::validate(config);
+  if (valid) return {};
+  const std::string& field = valid.error().field;
+  const std::string option = field == "bands"          ? "--bands"
+                             : field == "prior_pixels" ? "--prior-pixels"
+                                                       : "--largest";
+  return fail(Error{ErrorCode::kInvalidArgument, option + ": " + valid.error().message, option});
 }
 
 Status learn(const Options& options) {
   SEMVIEW_TRY_STATUS(io::check_output_file(options.output));
-  SEMVIEW_TRY_STATUS(similarity::validate(options.learner));
+  SEMVIEW_TRY_STATUS(io::check_is_no_input(options.output, std::array{options.list}));
+  SEMVIEW_TRY_STATUS(check_learner(options.learner));
   if (options.logs.empty() && options.list.empty()) {
     return fail(Error{ErrorCode::kInvalidArgument,
                       "give run logs with ground truth, or observation folders with --list",
@@ -154,10 +180,12 @@ Status learn(const Options& options) {
       kOddShare * static_cast<double>(lesson.used() + lesson.skipped())) {
     log_warning(lesson.skipped_text() + ": is it the right map?");
   }
+  SEMVIEW_TRY(const std::string learned_from, learned_from_lines(options.logs));
   const std::string header = fmt::format(
-      "# Logarithms of likelihood ratios, ln P(observed | map) - ln P(observed), learned by "
+      "{}# Logarithms of likelihood ratios, ln P(observed | map) - ln P(observed), learned by "
       "`semview "
       "weights learn`\n# from {} observations of map {}.\n",
+      learned_from,
       lesson.used(),
       site->id());
   SEMVIEW_TRY_STATUS(io::write_text_file(options.output, header + weights.to_csv()));

@@ -66,6 +66,47 @@ TEST_F(WeightsVerbsTest, ALargeShareOffTheMapIsWarnedOf) {
   EXPECT_THAT(errors_, HasSubstr("is it the right map?"));
 }
 
+TEST_F(WeightsVerbsTest, AMatrixIsNotJudgedOnTheLogThatItWasLearnedFrom) {
+  simulate();
+  ASSERT_EQ(learn(), 0) << errors_;
+  const auto evaluate = [this](const std::string& log) {
+    return run({"evaluate",
+                "logs",
+                "--map",
+                kMap,
+                log,
+                "--runs",
+                "1",
+                "--learned",
+                file("learned.csv"),
+                "--methods",
+                "ours",
+                "--columns",
+                "120",
+                "--rows",
+                "30"});
+  };
+  std::filesystem::copy(
+      folder_ / "run", folder_ / "copy", std::filesystem::copy_options::recursive);
+  for (const char* const log : {"run", "copy"}) {
+    EXPECT_EQ(evaluate(file(log)), 1) << output_;
+    EXPECT_THAT(errors_, HasSubstr("learned.csv: was learned from log " + file(log)));
+  }
+  ASSERT_EQ(run({"simulate", kMap, "--out", file("other"), "--steps", "4", "--seed", "2"}), 0);
+  EXPECT_EQ(evaluate(file("other")), 0) << errors_;
+}
+
+TEST_F(WeightsVerbsTest, FramesThatTheTruthDoesNotReachAreCounted) {
+  simulate();
+  auto truth = io::read_tum(file("run/groundtruth.txt")).value();
+  truth.resize(1);
+  ASSERT_TRUE(io::write_tum(file("run/groundtruth.txt"), truth));
+  EXPECT_EQ(learn(), 0) << errors_;
+  EXPECT_THAT(errors_, HasSubstr("run: 3 of 4 frames are not learned from"));
+  EXPECT_EQ(run({"weights", "learn", kMap, file("run"), "--bands", "0", "-o", file("x.csv")}), 2);
+  EXPECT_THAT(errors_, HasSubstr("--bands: 0 elevation bands"));
+}
+
 TEST_F(WeightsVerbsTest, ShowLeavesItsPictureAlsoWhereNobodyReadsTheTable) {
   // The reader is gone before the first line.
   const std::string command = "'" SEMVIEW_BINARY_DIR "/semview' weights show " SEMVIEW_SOURCE_DIR
