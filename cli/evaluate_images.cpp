@@ -104,6 +104,7 @@ Result<std::vector<Row>> evaluate(const Options& options,
     rows.push_back({"semview", "90 deg crop", {}});
     rows.push_back({"naive", "90 deg crop", {}});
   }
+  const std::string& source = options.list.empty() ? options.simulated.world : options.list;
   for (const KnownPicture& picture : pictures) {
     SEMVIEW_TRY(const similarity::WeightMatrix weights,
                 place_weights(options.weights, picture.observation.classes, floors[0]->map()));
@@ -115,9 +116,12 @@ Result<std::vector<Row>> evaluate(const Options& options,
     }
     for (std::size_t v = 0; v < views.size(); ++v) {
       const std::size_t row = v == 0 ? 0 : 2;
-      SEMVIEW_TRY(const PlaceError found,
-                  find(floors, weights, views[v], picture.map_from_robot, options.search));
-      rows[row].errors.push_back(found);
+      Result<PlaceError> found =
+          find(floors, weights, views[v], picture.map_from_robot, options.search);
+      if (!found) {
+        return with_context(std::move(found), fmt::format("{}: {}", source, picture.name));
+      }
+      rows[row].errors.push_back(*found);
       SEMVIEW_TRY(const PlaceError naive,
                   find_naively(*floors[0], views[v], picture.map_from_robot));
       rows[row + 1].errors.push_back(naive);
@@ -181,13 +185,19 @@ void print_table(const std::vector<Row>& rows) {
              printed_by_others());
 }
 
-Status check(const Options& options) {
-  const auto refuse = [](const char* option, const char* message) {
+Status check(const CLI::App& verb, const Options& options) {
+  const auto refuse = [](const char* option, const std::string& message) {
     return fail(Error{ErrorCode::kInvalidArgument, message, option});
   };
   if (options.list.empty() == options.simulated.world.empty()) {
     return refuse("--list", "give the pictures with either --list or --world");
   }
+  for (const char* option : {"--world-ground", "--camera-height", "--pictures"}) {
+    if (options.list.empty() || verb.count(option) == 0) continue;
+    return refuse(option, std::string(option) + ": needs --world");
+  }
+  const Status valid = places::validate(options.search);
+  if (!valid) return refuse("--kappa", valid.error().message);
   if (!options.segment.empty() && options.list.empty()) {
     return refuse("--segment", "--segment: labels the photographs of a --list");
   }
@@ -197,8 +207,8 @@ Status check(const Options& options) {
   return {};
 }
 
-Status run(const Options& options) {
-  SEMVIEW_TRY_STATUS(check(options));
+Status run(const CLI::App& verb, const Options& options) {
+  SEMVIEW_TRY_STATUS(check(verb, options));
   std::optional<PhotoLabeller> labeller;
   if (!options.segment.empty()) {
     SEMVIEW_TRY(labeller, open_photo_labeller(options.segment, options.camera));
@@ -286,7 +296,7 @@ void add_evaluate_images(CLI::App& evaluate_verb, int& exit_code) {
   verb->footer(
       "Example: semview evaluate images --map maps/duplex_level1 --world maps/duplex_building "
       "--pictures 100");
-  verb->callback([options, &exit_code] { exit_code = report(run(*options)); });
+  verb->callback([verb, options, &exit_code] { exit_code = report(run(*verb, *options)); });
 }
 
 }  // namespace semview::cli

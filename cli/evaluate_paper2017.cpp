@@ -213,8 +213,11 @@ void add_evaluate_paper2017_verb(CLI::App& evaluate, int& exit_code) {
   add_engine_option(*verb, options->experiment.engine);
   verb->add_flag("--resume", options->experiment.resume, "Keep what is finished in --out");
   verb->add_option("--out", options->out, "Folder of the results")->capture_default_str();
-  verb->add_flag(
-      "--quick", options->quick, "Four rows, 3 worlds, 3 runs, known start, in about two minutes");
+  verb->add_flag("--quick",
+                 options->quick,
+                 "Four rows, 3 worlds, 3 runs, known start, in about two minutes; --rows, "
+                 "--worlds, --runs and "
+                 "--starts win over it");
   verb->add_flag("--json", options->json, "Print a line a row, start and method as JSON");
   auto* estimates = add_estimates_option(*verb,
                                          options->estimates,

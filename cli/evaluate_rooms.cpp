@@ -77,6 +77,12 @@ bool share_a_name(const std::vector<evaluation::NamedRoom>& some,
   });
 }
 
+/// Where a pose was in no room, people read words.
+std::vector<std::string> with_no_room(std::vector<std::string> order) {
+  std::ranges::replace(order, "", "(no room)");
+  return order;
+}
+
 void print(const std::string& file, const evaluation::RoomScore& score) {
   fmt::print("{}: in the right room {} of {} ({:.1f} %), {:.2f} m from its place there\n",
              file,
@@ -84,15 +90,22 @@ void print(const std::string& file, const evaluation::RoomScore& score) {
              score.places,
              100.0 * static_cast<double>(score.right) / static_cast<double>(score.places),
              score.mean_error_m);
+  if (score.outside > 0) {
+    fmt::print("  left out: {} of {} poses, which were in no room of the building\n",
+               score.outside,
+               score.places + score.outside);
+  }
   const bool in_order = score.found_order == score.true_order;
   fmt::print("  rooms in the right order: {}\n", in_order ? "yes" : "no");
   fmt::print("  rooms visited: {}\n", fmt::join(score.true_order, ", "));
-  if (!in_order) fmt::print("  rooms found:   {}\n", fmt::join(score.found_order, ", "));
+  if (!in_order)
+    fmt::print("  rooms found:   {}\n", fmt::join(with_no_room(score.found_order), ", "));
 }
 
 ordered_json as_json(const std::string& file, const evaluation::RoomScore& score) {
   return {{"estimate", file},
           {"poses", score.places},
+          {"outside_true_rooms", score.outside},
           {"in_right_room", score.right},
           {"mean_error_m", score.mean_error_m},
           {"in_right_order", score.found_order == score.true_order},

@@ -22,6 +22,7 @@
 #include "stop_signals.hpp"
 #include "threads_option.hpp"
 #include "verb.hpp"
+#include "world_list.hpp"
 
 namespace semview::cli {
 namespace {
@@ -32,6 +33,7 @@ using paper2017::Start;
 
 struct Options {
   SketchSettings settings;
+  std::string worlds;
   std::vector<std::string> starts{"local", "global"};
   std::string out = "sketch_results";
   bool json = false;
@@ -75,6 +77,7 @@ void print_json(const std::vector<paper2017::SketchSummary>& summaries) {
 
 Status evaluate_sketches(const Options& options) {
   SketchSettings settings = options.settings;
+  SEMVIEW_TRY(settings.worlds, parse_worlds(options.worlds));
   settings.out = options.out;
   settings.starts.clear();
   for (const std::string& start : options.starts) {
@@ -113,8 +116,9 @@ void add_evaluate_sketches_verb(CLI::App& evaluate, int& exit_code) {
       "sketches.md, sketch_stops.csv and a picture a world. See experiments/paper2017/README.md.");
   const auto options = std::make_shared<Options>();
   SketchSettings& settings = options->settings;
-  verb->add_option("--worlds", settings.worlds, "1..100 for results, 201..205 to choose settings")
-      ->delimiter(',')
+  options->worlds = world_list(settings.worlds);
+  verb->add_option("--worlds", options->worlds, "1..100 for results, 201..205 to choose settings")
+      ->type_name("A..B,C,...")
       ->capture_default_str();
   verb->add_option("--sketches", settings.sketches, "Sketches of each world")
       ->capture_default_str();
@@ -132,7 +136,7 @@ void add_evaluate_sketches_verb(CLI::App& evaluate, int& exit_code) {
   verb->add_flag("--resume", settings.resume, "Keep what is finished in --out");
   verb->add_option("-o,--out", options->out, "Folder of the results")->capture_default_str();
   verb->add_flag("--json", options->json, "Print the table as JSON");
-  verb->footer("Example: semview evaluate sketches --worlds 1,2 --runs 1 -o sketches");
+  verb->footer("Example: semview evaluate sketches --worlds 1..2 --runs 1 -o sketches");
   verb->callback([options, &exit_code] { exit_code = report(evaluate_sketches(*options)); });
 }
 

@@ -80,6 +80,26 @@ Status check_parameters(const CLI::App& verb,
   return {};
 }
 
+/// Options that belong to one choice of --init, --heading, --weighting or --motion.
+Status check_choices(const CLI::App& verb, const LocalizeOptions& options) {
+  SEMVIEW_TRY_STATUS(
+      check_parameters(verb, !options.init.empty(), "--init", {"--init-heading-sigma"}));
+  SEMVIEW_TRY_STATUS(check_parameters(verb,
+                                      heading_of(options) != "odometry",
+                                      "--heading compass or combined",
+                                      {"--compass-gain", "--compass-gate"}));
+  const bool paper = options.motion == "paper";
+  SEMVIEW_TRY_STATUS(
+      check_parameters(verb, paper, "--motion paper", {"--sigma", "--heading-sigma"}));
+  SEMVIEW_TRY_STATUS(check_parameters(
+      verb, !paper, "--motion odometry", {"--alpha1", "--alpha2", "--alpha3", "--alpha4"}));
+  // Where the model scores depth, `check_model` says what kappa and power mean.
+  if (scores_depth(options.model)) return {};
+  const bool power = options.weighting.transform == "power";
+  SEMVIEW_TRY_STATUS(check_parameters(verb, power, "--weighting power", {"--power"}));
+  return check_parameters(verb, !power, "--weighting exponential", {"--kappa"});
+}
+
 }  // namespace
 
 void add_belief_options(CLI::App& verb, LocalizeOptions& options) {
@@ -95,6 +115,7 @@ void add_belief_options(CLI::App& verb, LocalizeOptions& options) {
 }
 
 Status check_belief_options(const CLI::App& verb, const LocalizeOptions& options) {
+  SEMVIEW_TRY_STATUS(check_choices(verb, options));
   SEMVIEW_TRY_STATUS(check_parameters(
       verb,
       options.estimate_map_affine,

@@ -62,6 +62,18 @@ Status distort(const Options& options) {
                       "nothing to distort: give --scale SX,SY, --shear K or both",
                       "--scale"});
   }
+  if (!affine.in_range()) {
+    const char* const option = options.scale.empty() ? "--shear" : "--scale";
+    return fail(
+        Error{ErrorCode::kInvalidArgument,
+              fmt::format("{}: scale {}, {} and shear {}: expected scales of 0.2 to 5 and a "
+                          "shear of -2 to 2",
+                          option,
+                          affine.a,
+                          affine.b,
+                          affine.k),
+              option});
+  }
   return write(options, affine);
 }
 
@@ -84,7 +96,14 @@ std::optional<MapAffine> find_affine(const nlohmann::json& json) {
 Result<MapAffine> read_affine(const std::string& text) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(text, ignored)) {
-    SEMVIEW_TRY(const std::vector<double> numbers, parse_numbers("--affine", text, 3));
+    const auto numbers_given = parse_numbers("--affine", text, 3);
+    if (!numbers_given) {
+      return fail(
+          Error{ErrorCode::kInvalidArgument,
+                fmt::format("--affine {}: is no file there, nor three numbers SX,SY,K", text),
+                "--affine"});
+    }
+    const std::vector<double>& numbers = *numbers_given;
     return MapAffine{numbers[0], numbers[1], numbers[2]};
   }
   SEMVIEW_TRY(const std::string content, io::read_text_file(text, kMaxAffineFileBytes));

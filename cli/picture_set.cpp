@@ -61,7 +61,7 @@ Result<Observation> read_picture(const std::filesystem::path& folder,
   if (labeller == nullptr) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{} is a photograph; expected the folder of an observation, which "
-                            "`semview observe` makes of it, or a network to label it (--segment)",
+                            "`semview observe` makes of it",
                             name));
   }
   std::vector<std::filesystem::path> files;

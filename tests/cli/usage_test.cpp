@@ -96,7 +96,7 @@ TEST_F(UsageTest, WholeNumbersFromZeroAreNoOthers) {
 }
 
 TEST_F(UsageTest, WorldsAreListedAlikeInEveryExperiment) {
-  for (const char* const experiment : {"lost", "paper2017"}) {
+  for (const char* const experiment : {"lost", "paper2017", "sketches"}) {
     for (const std::string bad : {"6..1", "1,,2", "1,1", "1..3,2", "x", "1..", "1..200"}) {
       expect_usage({"evaluate", experiment, "--worlds", bad, "--out", file("out")},
                    "--worlds " + bad + ": expected seeds or ranges such as 1,2,3 or 1..6");
@@ -139,7 +139,6 @@ TEST_F(UsageTest, WhatIsNamedTwiceIsRefused) {
   expect("paper2017", "--rows", "unmodified,unmodified");
   expect("paper2017", "--methods", "ours,ablation");
   expect("paper2017", "--starts", "local,local");
-  expect("sketches", "--worlds", "1,1");
   expect("sketches", "--methods", "none,none");
   expect("sketches", "--starts", "local,local");
   expect("logs", "--methods", "ours,ours");
@@ -220,6 +219,12 @@ TEST_F(UsageTest, WrongParametersOfTheFilterAreNamedByTheirOption) {
   expect({"--estimate-map-affine", "--affine-scale-sigma", "nan"},
          "--affine-scale-sigma: nan: expected a finite number from 0");
   expect({"--combined-sigma", "3"}, "--combined-sigma: needs --heading combined");
+  expect({"--kappa", "20"}, "--kappa: needs --weighting exponential");
+  expect({"--weighting", "exponential", "--power", "3"}, "--power: needs --weighting power");
+  expect({"--sigma", "0.1"}, "--sigma: needs --motion paper");
+  expect({"--motion", "paper", "--alpha3", "0.1"}, "--alpha3: needs --motion odometry");
+  expect({"--heading", "odometry", "--compass-gain", "1"}, "--compass-gain: needs --heading");
+  expect({"--init-heading-sigma", "3"}, "--init-heading-sigma: needs --init");
   expect({"--estimate-map-affine", "--particles", "30000"}, "--particles: 30000");
 }
 
@@ -240,6 +245,25 @@ TEST_F(UsageTest, AnOutputThatCannotBeWrittenIsToldBeforeTheWork) {
   const std::string below_a_file = folder_.write("file", "").string() + "/out";
   expect_failure({"simulate", map, "--out", below_a_file}, "is not a folder");
   expect_failure({"map", "import", "ros", "x.yaml", "-o", below_a_file}, "is not a folder");
+}
+
+TEST_F(UsageTest, NoVerbWritesOverWhatItReads) {
+  std::filesystem::create_directory(folder_ / "log");
+  for (const char* const name : {"log/log.yaml", "log/odometry.txt", "log/labels.png"}) {
+    folder_.write(name, "kept");
+  }
+  const std::string odometry = file("log/odometry.txt");
+  expect_failure({"localize", "--log", file("log"), "--map", kMap, "--global", "-o", odometry},
+                 "odometry.txt: is part of the run log in this folder");
+  expect_failure({"evaluate", "run", "--log", file("log"), odometry, "--svg", odometry},
+                 "odometry.txt: is part of the run log in this folder");
+  expect_failure({"map", "distort", kMap, "--shear", "0.3", "-o", file("log")},
+                 "log: has log.yaml, expected a new or empty folder for the map");
+  const std::string flat = folder_.write("flat.glb", "kept").string();
+  expect_failure({"map", "export", flat, flat}, "flat.glb: is read as input");
+  std::filesystem::remove(folder_ / "log/log.yaml");
+  expect_failure({"map", "distort", kMap, "--shear", "0.3", "-o", file("log")},
+                 "labels.png: is there already, and would be written over");
 }
 
 TEST_F(UsageTest, AnEmptyFolderIsNoRunLogAndNoObservation) {

@@ -32,6 +32,7 @@ TEST(RoomPlanTest, RoomsAreComparedByNameAndCountedOncePerVisit) {
       {1.5, 1, 0}, {2.5, 2, 0}, {2.9, 1, 0}, {4, 1, 0}, {7, 7, 0}, {1, 1, 0}};
   const RoomScore score = score_rooms(kTrue, kDrawn, truth, found);
   EXPECT_EQ(score.places, 5U);
+  EXPECT_EQ(score.outside, 1U);
   EXPECT_EQ(score.right, 3U);
   EXPECT_THAT(score.true_order, ElementsAre("hall", "kitchen", "hall"));
   EXPECT_THAT(score.found_order, ElementsAre("hall", "kitchen", ""));

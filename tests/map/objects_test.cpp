@@ -325,6 +325,7 @@ TEST_F(ObjectsTest, WhatMayNotBeMeantIsAWarning) {
           collection({R"({"type": "Feature", "properties": {"class": "wall"}, "geometry": null})"}),
           Severity::kWarning),
       HasSubstr("has no geometry"));
+  EXPECT_THAT(warning(R"("class": "wall")", "[]"), HasSubstr("has an empty geometry"));
 }
 
 TEST_F(ObjectsTest, AClassThatOnlyObjectsUseIsUsed) {

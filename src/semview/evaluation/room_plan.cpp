@@ -111,7 +111,10 @@ RoomScore score_rooms(std::span<const NamedRoom> true_rooms,
   std::size_t measured = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const NamedRoom* room = room_at(true_rooms, truth[i]);
-    if (room == nullptr) continue;
+    if (room == nullptr) {
+      ++score.outside;
+      continue;
+    }
     const NamedRoom* guess = room_at(drawn_rooms, found[i]);
     ++score.places;
     if (guess != nullptr && guess->name == room->name) ++score.right;

@@ -40,6 +40,7 @@ const NamedRoom* room_at(std::span<const NamedRoom> rooms, const Pose2& place);
 /// What was found at the places where a robot was.
 struct RoomScore {
   std::size_t places = 0;                ///< compared: those that lie in a true room
+  std::size_t outside = 0;               ///< where the robot was in none, and nothing is compared
   std::size_t right = 0;                 ///< of them in the room of the same name
   std::vector<std::string> true_order;   ///< rooms as visited, each repetition once
   std::vector<std::string> found_order;  ///< "" outside of all rooms

@@ -65,8 +65,8 @@ Status validate(const AffineStateConfig& config) {
     return refuse(field, value, "a share from 0 to 1");
   };
   const auto sigma = [&](const char* field, double value) -> Status {
-    if (value >= 0.0 && std::isfinite(value)) return {};
-    return refuse(field, value, "a finite number from 0");
+    if (value >= 0.0 && value <= 10.0) return {};  // e^10: no drawing is that wrong
+    return refuse(field, value, "a finite number from 0 to 10");
   };
   SEMVIEW_TRY_STATUS(share("identity_share", config.identity_share));
   SEMVIEW_TRY_STATUS(sigma("log_scale_sigma", config.log_scale_sigma));

@@ -68,6 +68,9 @@ std::optional<MapObject> ObjectFields::read() {
   read_properties(properties == nullptr ? kNone : *properties);
   if (const json* geometry = member(feature_, "geometry")) {
     read_geometry(*geometry);
+    if (!refused_ && object_.polygons.empty()) {
+      add(Severity::kWarning, "has an empty geometry", "draw its outline, or delete it");
+    }
   } else {
     add(Severity::kWarning, "has no geometry", "draw its outline, or delete it");
   }

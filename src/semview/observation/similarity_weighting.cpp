@@ -10,9 +10,10 @@ namespace semview::observation {
 namespace {
 
 Status check_positive(const char* field, double value) {
-  if (std::isfinite(value) && value > 0.0) return {};
+  constexpr double kMost = 1e6;  // far beyond it only the best particle has a weight
+  if (value > 0.0 && value <= kMost) return {};
   return fail(Error{ErrorCode::kInvalidArgument,
-                    fmt::format("{} is {}: expected a number > 0", field, value),
+                    fmt::format("{} is {}: expected a number > 0, at most {}", field, value, kMost),
                     field});
 }
 
