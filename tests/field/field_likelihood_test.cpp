@@ -82,8 +82,11 @@ TEST(FieldLikelihoodTest, OnAFusedVolumeItIsThePapersPixelByPixel) {
   Rng rng(8, "volume");
   const SemanticVolume volume = volume_of_room(room(), rng);
   const reference::VolumeTruth truth(volume, 0.2, 1.0);
-  expect_faithful(
-      *distances_of_volume(volume, 0.2, SurfaceReach::kTruncation), truth, {}, {}, {poses_to_score()[0], poses_to_score()[2]});
+  expect_faithful(*distances_of_volume(volume, 0.2, SurfaceReach::kTruncation),
+                  truth,
+                  {},
+                  {},
+                  {poses_to_score()[0], poses_to_score()[2]});
 }
 
 TEST(FieldLikelihoodTest, ThePlaceOfThePhotographIsTheLikeliest) {
