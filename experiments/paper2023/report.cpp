@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -81,6 +82,8 @@ Result<std::string> write_report(const Experiment& experiment,
                                  const paper2017::ReportHeader& header,
                                  const std::filesystem::path& directory) {
   std::string page = report(experiment, header);
+  std::error_code ignored;  // what cannot be made is named by what cannot be written
+  std::filesystem::create_directories(directory, ignored);
   SEMVIEW_TRY_STATUS(io::write_text_file(directory / "report.md", page));
   SEMVIEW_TRY_STATUS(io::write_text_file(directory / "runs.csv", to_csv(experiment)));
   for (const Session session : {Session::kStatic, Session::kChanged}) {

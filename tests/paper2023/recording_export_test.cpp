@@ -61,7 +61,9 @@ TEST(RecordingExportTest, LogsHoldWhatWasRecordedAndNoTruth) {
 
 TEST(RecordingExportTest, TheSurveyHasAMappersPoses) {
   const testing::TemporaryFolder folder;
-  const ExportConfig config = small();
+  ExportConfig config = small();
+  config.world.pose_noise.slow_position_m = 0.0;
+  config.world.mount_error = {0.0, 0.0};
   ASSERT_TRUE(export_recordings(config, folder / "out", say_nothing));
   ThreadPool pool(1);
   const Recording survey = record_survey(config.world, 1, pool);
@@ -75,7 +77,7 @@ TEST(RecordingExportTest, TheSurveyHasAMappersPoses) {
     squares += (frame.map_from_camera.translation() - exact.translation()).squaredNorm() / 3.0;
   }
   const auto count = static_cast<double>(survey.frames.size());
-  // σ of 1 cm an axis, four standard errors.
+  // σ of 1 cm an axis, four standard errors; what drifts slowly has too few samples for this.
   EXPECT_NEAR(std::sqrt(squares / count), 0.01, 4.0 * 0.01 / std::sqrt(6.0 * count));
 }
 

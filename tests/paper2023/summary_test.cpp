@@ -2,11 +2,13 @@
 #include "experiments/paper2023/summary.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "experiments/paper2023/report.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace semview::paper2023 {
 namespace {
@@ -73,6 +75,16 @@ TEST(ExperimentTest, WrongOptionsAreNamed) {
   config.worlds = {1};
   config.filter.particles = 0;
   EXPECT_EQ(validate(config).error().field, "--particles");
+}
+
+TEST(SummaryTest, TheReportsFolderIsMade) {
+  const testing::TemporaryFolder folder;
+  const auto directory = folder / "results" / "today";
+  const auto page = write_report(two_runs(0.4), {}, directory);
+  ASSERT_TRUE(page) << page.error().message;
+  for (const char* file : {"report.md", "runs.csv", "error_static.svg", "error_changed.svg"}) {
+    EXPECT_TRUE(std::filesystem::exists(directory / file)) << file;
+  }
 }
 
 }  // namespace
